@@ -1,4 +1,5 @@
-# Thin: every target is one command that can be typed by hand. `make` builds the programs into build/tools/ and build/samples/, `make test` the tests too.
+# Thin: every target is one command that can be typed by hand. `make` builds the programs into
+# build/tools/ and build/samples/, `make test` the tests too.
 .PHONY: all pictures package test demo population check tidy sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds nightly clean
 
 all:
@@ -24,7 +25,8 @@ check:
 tidy: all
 	@scripts/tidy
 
-# The tests of the library, hard cases among them, under the address, undefined-behaviour and thread sanitizers.
+# The tests of the library, hard cases among them, under the address, undefined-behaviour and thread
+# sanitizers.
 sanitize:
 	@scripts/sanitize address
 	@scripts/sanitize threads
@@ -55,7 +57,8 @@ bench-rivals:
 	@scripts/build release bench_rivals
 	@scripts/bench-rivals $(SCENES)
 
-# Every physical validation, the slow ones too, with what each measured beside its reference, and their plots.
+# Every physical validation, the slow ones too, with what each measured beside its reference, and
+# their plots.
 validation:
 	@scripts/setup --check gnuplot-nox
 	@scripts/build release test_validation
@@ -63,20 +66,23 @@ validation:
 	@SLOPER_VALIDATION=1 SLOPER_FIGURES=1 SLOPER_PLOTS=build/validation-plots build/tests/validation/test_validation
 	@scripts/validation-plots build/validation-plots docs/validation.png
 
-# Every hard case over its sweep and 20 seeds; the table goes to docs/hard-cases.md. Runs are kept in build/hard-runs, which a new build empties.
+# Every hard case over its sweep and 20 seeds; the table goes to docs/hard-cases.md. Runs are kept
+# in build/hard-runs, which a new build empties.
 hard:
 	@scripts/build release run-hard
 	@[ ! build/tests/hard/run-hard -nt build/hard-runs ] || rm -f build/hard-runs
 	@build/tests/hard/run-hard --jobs $(shell nproc) --kept build/hard-runs --table docs/hard-cases.md; status=$$?; scripts/figures; exit $$status
 
-# 10,000 random scenes; what fails is made small and kept in build/soak. FROM and COUNT choose a slice.
+# 10,000 random scenes; what fails is made small and kept in build/soak. FROM and COUNT choose a
+# slice.
 FROM ?= 0
 COUNT ?= 10000
 soak:
 	@scripts/build release run-soak
 	@build/tests/hard/run-soak --from $(FROM) --count $(COUNT) --out build/soak
 
-# What .ci/run has no time for: sanitizers whole, fuzzing, hard cases, soak, builds compared, clang-tidy, validation, packages, a population.
+# What .ci/run has no time for: sanitizers whole, fuzzing, hard cases, soak, builds compared,
+# clang-tidy, validation, packages, a population.
 nightly:
 	@scripts/nightly
 
@@ -85,8 +91,10 @@ compare-builds:
 	@scripts/setup --check || true
 	@scripts/compare-builds
 
-# What accuracy costs: whole drapes from panels of samples and of GARMENTS (pattern files, on the scan BODY), from STARTS that differ by a micrometre;
-# and what small changes move, into docs/accuracy-from-panels.md; tables and plots of three samples, from one sewn start, into docs/accuracy-cost.md.
+# What accuracy costs: whole drapes from panels of samples and of GARMENTS (pattern files, on the
+# scan BODY), from STARTS that differ by a micrometre; and what small changes move, into
+# docs/accuracy-from-panels.md; tables and plots of three samples, from one sewn start, into
+# docs/accuracy-cost.md.
 SCENES ?= skirt shirt trousers
 STARTS ?= 5
 accuracy-cost:
@@ -98,7 +106,8 @@ accuracy-cost:
 	@scripts/small-changes --into docs/accuracy-from-panels.md
 	@scripts/figures
 
-# The presets again from the measured front, into lib/garment/scene/preset_table.hpp: the cheapest settings within each preset's error on all scenes.
+# The presets again from the measured front, into lib/garment/scene/preset_table.hpp: the cheapest
+# settings within each preset's error on all scenes.
 presets:
 	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
 	@for scene in $(SCENES); do scripts/accuracy-cost --knobs grid $$scene || exit; done

@@ -1,5 +1,6 @@
-# What `cmake --install` and CPack put where. Two components: tools (programs, manual pages, completion, schemas, samples) and
-# development (headers, static libraries, pkg-config and CMake files).
+# What `cmake --install` and CPack put where. Two components: tools (programs, manual pages,
+# completion, schemas, samples) and development (headers, static libraries, pkg-config and CMake
+# files).
 include(CMakePackageConfigHelpers)
 
 set(modules base geometry io collision body pattern cloth garment render)

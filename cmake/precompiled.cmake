@@ -1,7 +1,9 @@
-# Half of a compilation would be reading the same headers, so those of the standard library, Eigen and GoogleTest are read once: for what
-# is shipped in one precompiled header, for the tests in another. Only headers that do not change with our sources stand in them, and no
-# source relies on it: SLOPER_PCH=OFF makes the same programs. ccache steps aside unless told: where it is the launcher, that is done here;
-# where it poses as the compiler (/usr/lib/ccache), set CCACHE_SLOPPINESS=pch_defines,time_macros or SLOPER_PCH=OFF.
+# Half of a compilation would be reading the same headers, so those of the standard library, Eigen
+# and GoogleTest are read once: for what is shipped in one precompiled header, for the tests in
+# another. Only headers that do not change with our sources stand in them, and no source relies on
+# it: SLOPER_PCH=OFF makes the same programs. ccache steps aside unless told: where it is the
+# launcher, that is done here; where it poses as the compiler (/usr/lib/ccache), set
+# CCACHE_SLOPPINESS=pch_defines,time_macros or SLOPER_PCH=OFF.
 option(SLOPER_PCH "Read the headers of the standard library, Eigen and GoogleTest once for all sources" ON)
 
 set(shared_headers <algorithm> <array> <cmath> <cstdint> <cstdio> <filesystem> <functional> <map> <memory> <numeric> <optional> <set> <sstream>
@@ -17,7 +19,8 @@ if(SLOPER_PCH AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
   list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${common})
 endif()
 
-# A precompiled header for the targets that are given to sloper_use_precompiled; OPTIONS are those that they all have.
+# A precompiled header for the targets that are given to sloper_use_precompiled; OPTIONS are those
+# that they all have.
 function(sloper_precompile name)
   cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
   if(SLOPER_PCH)

@@ -26,11 +26,16 @@ namespace {
 
 /// What scene and options say beside the preset.
 void set_knobs(garment::DrapeSettings& settings, const Options& o, const garment::Scene& scene) {
-  for (const auto& [name, value] : scene.settings) garment::set_knob(settings, name, value);
-  for (const std::string& assignment : o.set) garment::set_knob(settings, assignment);
-  if (o.max_seconds > 0) settings.max_seconds = o.max_seconds;
-  if (!scene.effects.empty()) settings.effects = scene.effects;
-  if (!o.effects.empty()) settings.effects = o.effects;
+  for (const auto& [name, value] : scene.settings)
+    garment::set_knob(settings, name, value);
+  for (const std::string& assignment : o.set)
+    garment::set_knob(settings, assignment);
+  if (o.max_seconds > 0)
+    settings.max_seconds = o.max_seconds;
+  if (!scene.effects.empty())
+    settings.effects = scene.effects;
+  if (!o.effects.empty())
+    settings.effects = o.effects;
 }
 
 /// Whether presets are climbed until an error or a time is met, instead of one being given.
@@ -51,7 +56,8 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
     job.goal = garment::AccuracyGoal{1e-3 * o.max_error_mm, settings.max_seconds};
   job.adjust = [&o, &scene](garment::DrapeSettings& s) { set_knobs(s, o, scene); };
   job.motion = o.motion;
-  if (o.motion_fps > 0) job.motion_fps = o.motion_fps;
+  if (o.motion_fps > 0)
+    job.motion_fps = o.motion_fps;
   job.untangle_only = o.untangle_only;
   job.follow = o.follow;
   job.frames = o.frames;
@@ -65,10 +71,12 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
               std::vector<garment::Garment>& under, const body::Body& body,
               garment::DrapeOutcome& outcome, const io::Json& inputs,
               const std::vector<Message>& findings) {
-  if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
+  if (!o.body.empty() && o.motion.empty())
+    garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
   for (std::size_t k = 0; k < o.over_output.size(); ++k) {
-    if (o.motion.empty()) garment::bind_garment(under[k], body);
+    if (o.motion.empty())
+      garment::bind_garment(under[k], body);
     garment::write_garment(o.over_output[k], under[k], tool.name());
   }
   io::Json& document = outcome.document;
@@ -94,7 +102,8 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
                                  o.output});
     return static_cast<int>(ErrorKind::FAILED);
   }
-  if (report.converged) return outcome.refused_lines > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
+  if (report.converged)
+    return outcome.refused_lines > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
   tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
                                                        " after " + std::to_string(report.steps) +
                                                        " steps; the state reached is in " +
@@ -108,7 +117,8 @@ garment::DrapeOutcome redrape(cli::Tool& tool, const Options& o, garment::Garmen
   garment::RedrapeRequest request;
   request.count = o.redrapes;
   request.seed = static_cast<std::uint64_t>(o.seed);
-  for (const std::string& assignment : o.jitter) garment::set_jitter(request.jitter, assignment);
+  for (const std::string& assignment : o.jitter)
+    garment::set_jitter(request.jitter, assignment);
   garment::RedrapeSet set = garment::redrape(garment, body, settings, request, tool.reporter());
   const garment::Spread spread = garment::measure_spread(set, body);
   if (!o.spread.empty())
@@ -163,7 +173,8 @@ int resume(cli::Tool& tool, const Options& o) {
     garment.body_sha256 = body::skin_sha256(o.body);
     inputs.push_back(garment::input_entry(o.body));
   }
-  if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
+  if (!o.motion.empty())
+    inputs.push_back(garment::input_entry(o.motion));
   garment::DrapeJob job;
   job.tool = tool.name();
   job.motion = o.motion;
@@ -177,11 +188,14 @@ int resume(cli::Tool& tool, const Options& o) {
 
 int run(cli::Tool& tool, Options& o) {
   check_options(o);
-  if (!o.from.empty() && garment::is_checkpoint(o.from)) return resume(tool, o);
+  if (!o.from.empty() && garment::is_checkpoint(o.from))
+    return resume(tool, o);
   check_over_output(o, o.over.size());
   const garment::Scene scene = o.scene.empty() ? garment::Scene{} : garment::read_scene(o.scene);
-  if (o.body.empty()) o.body = scene.body;
-  if (o.panels.empty()) o.panels = scene.panels;
+  if (o.body.empty())
+    o.body = scene.body;
+  if (o.panels.empty())
+    o.panels = scene.panels;
   if (o.panels.empty() == o.from.empty())
     throw Error(ErrorKind::USAGE, "drape.not-one-start"_id, "", "",
                 o.from.empty() ? "nothing to drape" : "both --panels and --from are given",
@@ -203,14 +217,17 @@ int run(cli::Tool& tool, Options& o) {
   if (o.from.empty()) {
     garment.panels = pattern::read_panel_mesh(o.panels);
     garment.rest_scale = pattern::tape_scales(garment.panels);
-  } else garment = garment::read_garment(o.from);
+  } else
+    garment = garment::read_garment(o.from);
   io::Json inputs = io::Json::array({garment::input_entry(source)});
   garment::apply_scene(scene, garment);
-  if (!o.material.empty()) garment.materials[""] = garment::material_from(o.material);
+  if (!o.material.empty())
+    garment.materials[""] = garment::material_from(o.material);
   garment::apply_interfacing(scene, garment);
 
   std::vector<garment::Garment> layers;
-  for (const std::string& path : o.over) layers.push_back(garment::read_garment(path));
+  for (const std::string& path : o.over)
+    layers.push_back(garment::read_garment(path));
   const body::Body body = o.body.empty() ? body::Body{} : read_body(tool, o);
   const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
   const std::optional<double> before = garment::stretch_elsewhere(garment, skin);
@@ -224,9 +241,12 @@ int run(cli::Tool& tool, Options& o) {
     garment.body_sha256 = skin;
     inputs.push_back(garment::input_entry(o.body));
   }
-  for (const Message& finding : findings) tool.reporter().warning(finding);
-  if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
-  for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
+  for (const Message& finding : findings)
+    tool.reporter().warning(finding);
+  if (!o.motion.empty())
+    inputs.push_back(garment::input_entry(o.motion));
+  for (const std::string& path : o.over)
+    inputs.push_back(garment::input_entry(path));
   const body::Body* const dressed = o.body.empty() ? nullptr : &body;
   garment::DrapeOutcome outcome =
       o.redrapes > 0 ? redrape(tool, o, garment, dressed, settings)

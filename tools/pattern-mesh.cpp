@@ -55,7 +55,8 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
                 << ")\n";
     for (const pattern::Opening& opening : measures.openings) {
       std::string edges;
-      for (const std::string& edge : opening.edges) edges += (edges.empty() ? "" : ", ") + edge;
+      for (const std::string& edge : opening.edges)
+        edges += (edges.empty() ? "" : ", ") + edge;
       std::cout << "measure: opening of " << pattern::centimetres(opening.length) << ": " << edges
                 << '\n';
     }
@@ -74,12 +75,15 @@ void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::s
     return path.size() >= tail.size() &&
            path.compare(path.size() - tail.size(), tail.size(), tail) == 0;
   };
-  if (ends(".svg")) io::write_file(path, pattern::pattern_svg(source));
+  if (ends(".svg"))
+    io::write_file(path, pattern::pattern_svg(source));
   else if (ends(".dxf")) {
     std::vector<std::string> left_out;
     io::write_file(path, pattern::pattern_dxf(source, left_out));
-    for (const std::string& line : left_out) tool.reporter().warning({"dxf.not-written"_id, line});
-  } else if (ends(".json")) io::write_json(path, pattern::pattern_json(source, tool.name()));
+    for (const std::string& line : left_out)
+      tool.reporter().warning({"dxf.not-written"_id, line});
+  } else if (ends(".json"))
+    io::write_json(path, pattern::pattern_json(source, tool.name()));
   else
     throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, path, "",
                 "the file name does not end in a pattern format",
@@ -97,7 +101,8 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
       source.findings.push_back({"pattern.seam-guessed"_id, "seam " + g.seam.name + " is guessed"});
     }
   const std::vector<std::string> apart = pattern::panels_apart(source);
-  if (document["questions"].empty() && !source.seams.empty() && apart.empty()) return true;
+  if (document["questions"].empty() && !source.seams.empty() && apart.empty())
+    return true;
   std::cout << io::to_text(document);
   tool.reporter().warning({"pattern.seams-guessed"_id,
                            "the file states no seams: " + std::to_string(source.seams.size()) +
@@ -113,14 +118,18 @@ std::vector<std::string> names_in(const std::string& list) {
   std::vector<std::string> out;
   std::istringstream in(list);
   for (std::string name; std::getline(in, name, ',');)
-    if (!name.empty()) out.push_back(name);
+    if (!name.empty())
+      out.push_back(name);
   return out;
 }
 
 double metres_per(const std::string& unit) {
-  if (unit == "mm") return units::MM;
-  if (unit == "cm") return units::CM;
-  if (unit == "in") return units::INCH;
+  if (unit == "mm")
+    return units::MM;
+  if (unit == "cm")
+    return units::CM;
+  if (unit == "in")
+    return units::INCH;
   return unit == "m" ? 1 : 0;
 }
 
@@ -130,7 +139,8 @@ int run(cli::Tool& tool, const Options& o) {
                                 names_in(o.without)};
   pattern::Pattern source = pattern::read_pattern(o.pattern, choice);
   io::Json edits;
-  if (!o.edits.empty()) edits = io::read_json(o.edits);
+  if (!o.edits.empty())
+    edits = io::read_json(o.edits);
   if (!o.undo.empty()) {
     if (o.edits.empty())
       throw Error(ErrorKind::USAGE, "option.needs-another"_id, o.undo, "",
@@ -139,8 +149,10 @@ int run(cli::Tool& tool, const Options& o) {
   }
   if (o.check ||
       (o.output.empty() && (!o.write_pattern.empty() || !o.undo.empty()))) { // nothing to mesh
-    if (!o.edits.empty()) pattern::apply_edits(source, edits, o.edits);
-    if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
+    if (!o.edits.empty())
+      pattern::apply_edits(source, edits, o.edits);
+    if (!o.write_pattern.empty())
+      write_pattern(tool, source, o.write_pattern);
     return o.check ? check(tool, source, o) : 0;
   }
   const bool may_lack_seams = source.source_format == "dxf" || source.source_format == "clo";
@@ -169,14 +181,17 @@ int run(cli::Tool& tool, const Options& o) {
       tool.reporter().warning(mesh.findings.back());
     }
   }
-  if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
+  if (!o.write_pattern.empty())
+    write_pattern(tool, source, o.write_pattern);
   for (const pattern::PatternFinding& f : pattern::check_pattern(source)) {
-    if (f.severity != "error") continue; // of those that can be sewn nevertheless
+    if (f.severity != "error")
+      continue; // of those that can be sewn nevertheless
     mesh.findings.push_back({"pattern.sewn-despite-fault"_id, f.place + ": " + f.fact});
     tool.reporter().warning(mesh.findings.back());
   }
   std::vector<std::string> impossible;
-  if (o.body.empty()) pattern::lay_flat(source, mesh);
+  if (o.body.empty())
+    pattern::lay_flat(source, mesh);
   else {
     mesh.body_sha256 = body::skin_sha256(o.body);
     const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
@@ -186,14 +201,16 @@ int run(cli::Tool& tool, const Options& o) {
            "the start is not free: " + std::to_string(r.crossings) + " pairs of triangles cross, " +
                std::to_string(r.vertices_inside) + " vertices lie in the body, " +
                std::to_string(r.faces_through) + " faces go through its skin"});
-    if (r.is_guess) tool.reporter().warning(mesh.findings.back());
+    if (r.is_guess)
+      tool.reporter().warning(mesh.findings.back());
     impossible = r.impossible;
     for (const std::string& fact : impossible)
       mesh.findings.push_back({"placement.impossible"_id, fact});
     tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) +
                          ", largest " + pattern::centimetres(r.seam_gap_max));
   }
-  for (const Message& finding : mesh.findings) tool.reporter().info(finding.text);
+  for (const Message& finding : mesh.findings)
+    tool.reporter().info(finding.text);
   pattern::write_panel_mesh(o.output, mesh, tool.name());
   if (!impossible.empty())
     throw Error(

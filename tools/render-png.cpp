@@ -135,7 +135,8 @@ int run_compare(const Options& o) {
   if (o.documents.size() != 2)
     throw Error(ErrorKind::USAGE, "option.wrong-count"_id, "", "--compare", "needs two PNG files");
   io::Image mask;
-  if (!o.mask.empty()) mask = io::read_png(o.mask);
+  if (!o.mask.empty())
+    mask = io::read_png(o.mask);
   const render::Comparison c = render::compare(
       io::read_png(o.documents[0]), io::read_png(o.documents[1]), o.mask.empty() ? nullptr : &mask);
   const double share = static_cast<double>(c.far) / static_cast<double>(c.counted);
@@ -145,13 +146,15 @@ int run_compare(const Options& o) {
                        {"different_pixels", c.different},
                        {"far_share", share},
                        {"equal", equal}});
-  if (!o.output.empty()) io::write_png(o.output, c.picture, {{"Software", "render-png"}});
+  if (!o.output.empty())
+    io::write_png(o.output, c.picture, {{"Software", "render-png"}});
   return equal ? 0 : 1;
 }
 
 int run_sheet(const Options& o) {
   std::vector<io::Image> images;
-  for (const std::string& path : o.documents) images.push_back(io::read_png(path));
+  for (const std::string& path : o.documents)
+    images.push_back(io::read_png(path));
   io::write_png(o.output,
                 render::contact_sheet(images, split(o.labels),
                                       o.columns > 0 ? o.columns : static_cast<int>(images.size())),
@@ -169,7 +172,8 @@ void needs(const char* name, const std::optional<cli::Option>& option, bool ther
 /// Names that promise something else than what would be written are refused.
 void check_output(const std::string& path) {
   const std::string ending = io::ending_of(path);
-  if (ending.empty() || path.rfind("/dev/", 0) == 0 || render::is_export(path)) return;
+  if (ending.empty() || path.rfind("/dev/", 0) == 0 || render::is_export(path))
+    return;
   if (ending != ".png")
     throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, "", "-o " + path,
                 "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
@@ -177,13 +181,16 @@ void check_output(const std::string& path) {
 
 /// What --values asks for; refused before anything is drawn.
 bool wants_ply(const Options& o) {
-  if (o.values.empty()) return false;
+  if (o.values.empty())
+    return false;
   if (o.map == "none" || o.map == "parts")
     throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", "--values",
                 "needs a map with numbers", "for example --map strain");
   const std::string ending = io::ending_of(o.values);
-  if (ending == ".ply") return true;
-  if (ending == ".csv" || o.values == "-" || o.values.rfind("/dev/", 0) == 0) return false;
+  if (ending == ".ply")
+    return true;
+  if (ending == ".csv" || o.values == "-" || o.values.rfind("/dev/", 0) == 0)
+    return false;
   throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, "", "--values " + o.values,
               "is no kind of file that can be written", "end it in .csv or .ply");
 }
@@ -193,7 +200,8 @@ using Texts = std::vector<std::pair<std::string, std::string>>;
 /// What a picture says of itself.
 Texts provenance(const render::Scene& scene) {
   std::string source;
-  for (const std::string& name : scene.names) source += (source.empty() ? "" : ", ") + name;
+  for (const std::string& name : scene.names)
+    source += (source.empty() ? "" : ", ") + name;
   return {{"Software", generator_stamp("render-png")}, {"Source", source}};
 }
 
@@ -226,10 +234,12 @@ render::DrawOptions drawing_options(const Options& o) {
 
 /// The cameras asked for; none where the pattern is to be laid flat.
 std::vector<std::optional<render::CameraOptions>> views_of(const Options& o) {
-  if (!o.camera.empty()) return {render::read_camera(o.camera)};
+  if (!o.camera.empty())
+    return {render::read_camera(o.camera)};
   auto views = render::parse_views(o.view);
   for (auto& v : views)
-    if (v && o.field_height > 0) v->field_height = o.field_height;
+    if (v && o.field_height > 0)
+      v->field_height = o.field_height;
   return views;
 }
 
@@ -245,7 +255,8 @@ int run_render(cli::Tool& tool, const Options& o) {
   const std::vector<int> colors = render::parse_colors(o.colors);
   const auto& maps = render::map_names();
   render::Scene scene = render::read_scene(o.documents);
-  for (const Message& finding : scene.findings) tool.reporter().warning(finding);
+  for (const Message& finding : scene.findings)
+    tool.reporter().warning(finding);
   const render::Legend legend = render::apply_map(
       scene, static_cast<render::Map>(std::find(maps.begin(), maps.end(), o.map) - maps.begin()),
       o.range);
@@ -284,7 +295,8 @@ int run_render(cli::Tool& tool, const Options& o) {
   if (fits && views.size() > 1)
     render::share_scale(meshes, views, static_cast<double>(options.width) / options.height, left,
                         right);
-  if (o.as != "files") render::check_pixels({options.width, options.height}, views.size());
+  if (o.as != "files")
+    render::check_pixels({options.width, options.height}, views.size());
   for (const auto& view : views) {
     if (tool.reporter().stop_requested())
       throw Error(ErrorKind::FAILED, "general.stopped"_id, o.output, "",
@@ -294,7 +306,8 @@ int run_render(cli::Tool& tool, const Options& o) {
     if (!view) {
       images.push_back(render::draw_pattern(scene, options));
     } else {
-      if (!renderer) renderer.emplace(meshes, options).keep_depth(show.any());
+      if (!renderer)
+        renderer.emplace(meshes, options).keep_depth(show.any());
       const render::Camera camera = render::frame_beside(
           meshes, *view, static_cast<double>(options.width) / options.height, left, right);
       images.push_back(renderer->draw(camera));
@@ -307,7 +320,8 @@ int run_render(cli::Tool& tool, const Options& o) {
       images.clear();
     }
   }
-  if (!images.empty()) write_pictures(o, images, texts);
+  if (!images.empty())
+    write_pictures(o, images, texts);
   return 0;
 }
 
@@ -332,7 +346,8 @@ int main(int argc, char** argv) {
           "ask for several views, or give --sheet");
     needs("--columns", options.columns_given, several, "lays out a sheet, and there is one picture",
           "ask for several views, or give --sheet");
-    if (options.compare) return run_compare(options);
+    if (options.compare)
+      return run_compare(options);
     if (options.output.empty())
       throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",
                   "for example -o shirt.png");

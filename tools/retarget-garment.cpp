@@ -36,7 +36,8 @@ struct Options {
 
 std::vector<std::string> fabric_names() {
   std::vector<std::string> names;
-  for (const garment::Material& m : garment::material_presets()) names.push_back(m.name);
+  for (const garment::Material& m : garment::material_presets())
+    names.push_back(m.name);
   return names;
 }
 
@@ -113,7 +114,8 @@ void write_fit(const Options& o, const garment::FitReport& fit, const std::strin
     document["inputs"] = inputs;
     io::write_json(o.fit, document);
   }
-  if (!o.fit_csv.empty()) io::write_file(o.fit_csv, garment::fit_csv(fit));
+  if (!o.fit_csv.empty())
+    io::write_file(o.fit_csv, garment::fit_csv(fit));
   if (!o.fit_page.empty())
     io::write_file(o.fit_page,
                    garment::fit_page(fit, io::file_name(o.garment), io::file_name(o.to)));
@@ -123,11 +125,15 @@ void write_fit(const Options& o, const garment::FitReport& fit, const std::strin
 /// 4, since what was asked for could not be made.
 int refuse(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
   std::string written;
-  if (fit.state == "placed") written = "; " + o.output + " has it as it was placed, not draped";
-  if (fit.state == "not at rest") written = "; " + o.output + " has it as far as the drape came";
-  if (fit.state == "not placed") written = "; " + o.output + " is not written";
+  if (fit.state == "placed")
+    written = "; " + o.output + " has it as it was placed, not draped";
+  if (fit.state == "not at rest")
+    written = "; " + o.output + " has it as far as the drape came";
+  if (fit.state == "not placed")
+    written = "; " + o.output + " is not written";
   std::string rule = garment::rule_text(fit.rule, fit.policy);
-  if (!rule.empty()) rule = "; the rule is " + rule + ": --policy FILE says another";
+  if (!rule.empty())
+    rule = "; the rule is " + rule + ": --policy FILE says another";
   tool.reporter().warning(
       {"retarget.does-not-fit"_id, "does not fit: the garment " + fit.reason + rule + written});
   return o.policy.empty() ? static_cast<int>(ErrorKind::FAILED) : 1;
@@ -168,7 +174,8 @@ Source read_source(cli::Tool& tool, const Options& o) {
       body::skin_sha256(o.from), o.fabric.empty() ? garment::Material().name : o.fabric,
       tool.reporter());
   source.garment = source.mesh->garment;
-  for (const Message& finding : source.mesh->findings) tool.reporter().warning(finding);
+  for (const Message& finding : source.mesh->findings)
+    tool.reporter().warning(finding);
   return source;
 }
 
@@ -184,7 +191,8 @@ bool write_mesh(cli::Tool& tool, const Options& o, const garment::MeshGarment& m
     tool.reporter().warning({"import.file-left-out"_id, io::file_name(path) + ": " + left});
   bool worse = false;
   const auto compare = [&](int now, int before, const std::string& what) {
-    if (now <= before) return;
+    if (now <= before)
+      return;
     worse = true;
     tool.reporter().warning({"import.crosses-more"_id, io::file_name(path) + ": " +
                                                            std::to_string(now) + what + ", " +
@@ -206,7 +214,8 @@ void write_pattern(cli::Tool& tool, const Options& o, const garment::Garment& re
   io::write_json(o.pattern, pattern::pattern_json(after, tool.name()));
   io::write_file(stem + ".dxf", pattern::pattern_dxf(after, left_out));
   io::write_file(stem + ".csv", garment::grade_table(before, after));
-  for (const Message& finding : after.findings) tool.reporter().warning(finding);
+  for (const Message& finding : after.findings)
+    tool.reporter().warning(finding);
   for (const std::string& what : left_out)
     tool.reporter().warning({"dxf.not-written"_id, io::file_name(stem) + ".dxf: " + what});
 }
@@ -221,8 +230,10 @@ int run(cli::Tool& tool, Options o) {
                 "a regraded pattern is three files and cannot go to standard output",
                 "give a file name");
   garment::DrapeSettings settings = garment::preset_settings(o.accuracy);
-  for (const std::string& assignment : o.set) garment::set_knob(settings, assignment);
-  if (o.max_seconds > 0) settings.max_seconds = o.max_seconds;
+  for (const std::string& assignment : o.set)
+    garment::set_knob(settings, assignment);
+  if (o.max_seconds > 0)
+    settings.max_seconds = o.max_seconds;
   garment::FitPolicy policy =
       o.policy.empty() ? garment::standard_fit_policy() : garment::read_fit_policy(o.policy);
 
@@ -242,7 +253,8 @@ int run(cli::Tool& tool, Options o) {
                       "the garment is not bound to a body", "drape it with --body first");
   const std::string skin_hash = body::skin_sha256(o.to);
   io::Json inputs = {garment::input_entry(o.garment), garment::input_entry(o.to)};
-  if (put_on.mesh) inputs.push_back(garment::input_entry(o.from));
+  if (put_on.mesh)
+    inputs.push_back(garment::input_entry(o.from));
   if (const std::string reason = garment::why_impossible(source, body); !reason.empty()) {
     const garment::FitReport fit = garment::impossible_fit(reason, policy);
     write_fit(o, fit, tool.name(), false, inputs);
@@ -250,13 +262,15 @@ int run(cli::Tool& tool, Options o) {
   }
   const collision::BodyCollider skin = collision::make_collider(body.skin, body.skin_cache.get());
 
-  if (o.policy.empty()) garment::follow_worn(source, body, skin, skin_hash, policy);
+  if (o.policy.empty())
+    garment::follow_worn(source, body, skin, skin_hash, policy);
 
   garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
   garment::Garment& garment = placed.garment;
   garment.body_sha256 = skin_hash;
   garment::FitReport fit;
-  if (!o.no_drape) fit = garment::fit_before_drape(garment, source.position, body, policy);
+  if (!o.no_drape)
+    fit = garment::fit_before_drape(garment, source.position, body, policy);
   garment::DrapeReport report;
   report.settings = settings;
   report.stop_reason = garment::StopReason::PLACED_ONLY;
@@ -271,7 +285,8 @@ int run(cli::Tool& tool, Options o) {
     if (!o.no_drape && !hopeless)
       report = garment::drape(garment, &body, settings, tool.reporter(), request);
     garment::bind_garment(garment, body);
-    if (hopeless) break;
+    if (hopeless)
+      break;
     const auto& made_for =
         keep_fit ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
     const auto judged = [&](const garment::Garment& worn) {
@@ -279,7 +294,8 @@ int run(cli::Tool& tool, Options o) {
                                   garment::misfit_text(report.misfit), made_for, &source.position);
     };
     fit = judged(garment);
-    if (!keep_fit || o.no_drape || placed.report.gradings == MOST_GRADINGS) break;
+    if (!keep_fit || o.no_drape || placed.report.gradings == MOST_GRADINGS)
+      break;
     garment::FitReport in_place = fit;
     if (report.stop_reason == garment::StopReason::STEP_LIMIT) {
       // cloth that is too tight seldom comes to rest: it is judged as if it had
@@ -288,25 +304,30 @@ int run(cli::Tool& tool, Options o) {
       in_place = judged(still);
     }
     const bool too_tight = !in_place.fits && in_place.verdict == garment::FitVerdict::TOO_SMALL;
-    if (!too_tight) break;
-    if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0) break;
+    if (!too_tight)
+      break;
+    if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0)
+      break;
     tool.reporter().info("the garment " + in_place.reason + ": let out there");
     garment::widen_strained_pieces(placed, source, body);
   }
-  if (!io::is_mesh_file(o.output)) garment::write_garment(o.output, garment, tool.name());
+  if (!io::is_mesh_file(o.output))
+    garment::write_garment(o.output, garment, tool.name());
   bool worse = false;
   std::optional<garment::DressedMesh> dressed;
   if (put_on.mesh) {
     dressed = garment::dressed_mesh(*put_on.mesh, garment, body, skin);
     worse = write_mesh(tool, o, *put_on.mesh, *dressed);
   }
-  if (!o.pattern.empty()) write_pattern(tool, o, garment, source);
+  if (!o.pattern.empty())
+    write_pattern(tool, o, garment, source);
   if (!o.no_drape && !hopeless)
     if (const auto place = garment::stretched_place(garment::stretch_of(garment)))
       placed.report.findings.push_back(
           {"drape.stretched-place"_id,
            io::file_name(o.garment) + " on " + io::file_name(o.to) + ": " + *place});
-  for (const Message& finding : placed.report.findings) tool.reporter().warning(finding);
+  for (const Message& finding : placed.report.findings)
+    tool.reporter().warning(finding);
   if (const std::string why = garment::why_stuck(garment, body);
       fit.fits && !o.no_drape && !report.converged && !why.empty()) {
     fit.fits = false;
@@ -314,15 +335,18 @@ int run(cli::Tool& tool, Options o) {
     fit.reason = why;
     fit.probability = {0, "", ""};
   }
-  if (o.no_drape) fit.state = "placed";
+  if (o.no_drape)
+    fit.state = "placed";
   write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());
     document["mode"] = o.mode;
     document["placement"] = garment::placement_json(placed.report);
     io::put_findings(document, placed.report.findings);
-    if (dressed) document["garment_mesh"] = garment::mesh_json(*put_on.mesh, &*dressed);
-    if (o.nearest_size) document["sizes"] = garment::ranking_json(sizes);
+    if (dressed)
+      document["garment_mesh"] = garment::mesh_json(*put_on.mesh, &*dressed);
+    if (o.nearest_size)
+      document["sizes"] = garment::ranking_json(sizes);
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)},
                         {"quantised_10um", garment::quantised_hash(garment)}};
@@ -333,9 +357,12 @@ int run(cli::Tool& tool, Options o) {
                                                          " after " + std::to_string(report.steps) +
                                                          " steps; the state reached is in " +
                                                          o.output});
-  if (!fit.fits && !o.no_drape) return refuse(tool, o, fit);
-  if (!o.no_drape) tell_unknown_strain(tool, o, fit);
-  if (worse && !o.no_drape) return static_cast<int>(ErrorKind::FAILED);
+  if (!fit.fits && !o.no_drape)
+    return refuse(tool, o, fit);
+  if (!o.no_drape)
+    tell_unknown_strain(tool, o, fit);
+  if (worse && !o.no_drape)
+    return static_cast<int>(ErrorKind::FAILED);
   return report.converged || o.no_drape ? 0 : static_cast<int>(ErrorKind::FAILED);
 }
 

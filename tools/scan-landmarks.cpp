@@ -26,7 +26,8 @@ struct Options {
 
 void write_parts(const std::string& path, const std::vector<body::Part>& parts) {
   std::string bytes(parts.size(), '\0');
-  for (std::size_t v = 0; v < parts.size(); ++v) bytes[v] = static_cast<char>(parts[v]);
+  for (std::size_t v = 0; v < parts.size(); ++v)
+    bytes[v] = static_cast<char>(parts[v]);
   io::write_file(path, bytes);
 }
 
@@ -38,7 +39,8 @@ std::string features_text(const body::ShapeFeatures& features) {
     text += names[k];
     for (const std::vector<double>& side : features.side) {
       char number[40] = ",";
-      if (std::isfinite(side[k])) std::snprintf(number, sizeof number, ",%.7g", side[k]);
+      if (std::isfinite(side[k]))
+        std::snprintf(number, sizeof number, ",%.7g", side[k]);
       text += number;
     }
     text += "\n";
@@ -54,7 +56,8 @@ void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
     body::write_motion(o.output, body, weights, motion, tool.name(), tool.reporter());
     tool.reporter().info(std::to_string(motion.poses.size()) + " poses, " +
                          std::to_string(motion.frame_s) + " s apart");
-  } else body = body::posed_body(body, weights, body::read_pose(o.pose, body));
+  } else
+    body = body::posed_body(body, weights, body::read_pose(o.pose, body));
 }
 
 /// What is estimated or not found, a line each, and the widest hole; a scanner leaves a dozen, and
@@ -63,17 +66,22 @@ void tell_findings(cli::Tool& tool, const body::Body& body) {
   std::size_t n_holes = 0;
   Message widest{"scan.hole"_id, ""};
   for (const body::Finding& finding : body.scan.findings) {
-    if (finding.severity != "warning") continue; // what was not found is told at the end
+    if (finding.severity != "warning")
+      continue; // what was not found is told at the end
     const std::string text = finding.place + ": " + finding.what;
     const bool is_hole =
         finding.place[0] == '('; // its place is a point, and they come widest first
-    if (is_hole && n_holes++ == 0) widest.text = text;
-    if (is_hole || finding.place == "body.obj") tool.reporter().info(text);
-    else tool.reporter().warning(Message::read(finding.id, text));
+    if (is_hole && n_holes++ == 0)
+      widest.text = text;
+    if (is_hole || finding.place == "body.obj")
+      tool.reporter().info(text);
+    else
+      tool.reporter().warning(Message::read(finding.id, text));
   }
   if (n_holes > 1)
     widest.text += ", and " + std::to_string(n_holes - 1) + " less wide: scan.findings has them";
-  if (n_holes > 0) tool.reporter().warning(widest);
+  if (n_holes > 0)
+    tool.reporter().warning(widest);
 }
 
 int run(cli::Tool& tool, const Options& o) {
@@ -84,7 +92,8 @@ int run(cli::Tool& tool, const Options& o) {
   options.up = o.up;
   options.jitter = o.jitter;
   options.torso_only = o.torso_only;
-  if (!o.rules.empty()) options.rules = body::Rules::read(o.rules);
+  if (!o.rules.empty())
+    options.rules = body::Rules::read(o.rules);
   body::Corrections corrections;
   if (!o.corrections.empty()) {
     corrections = body::Corrections::parse(io::read_file(o.corrections), o.corrections);
@@ -102,17 +111,26 @@ int run(cli::Tool& tool, const Options& o) {
   const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
   const std::string garmentcode =
       o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);
-  if (!o.pose.empty()) strike_pose(tool, o, measured.body);
-  if (o.anonymise) body::anonymise(measured.body);
+  if (!o.pose.empty())
+    strike_pose(tool, o, measured.body);
+  if (o.anonymise)
+    body::anonymise(measured.body);
   body::write_body(o.output, measured.body, tool.name());
-  if (!o.parts.empty()) write_parts(o.parts, measured.vertex_part);
-  if (!o.features.empty()) io::write_file(o.features, features_text(measured.features));
-  if (!o.csv.empty()) io::write_file(o.csv, body::measurements_csv(measured.body));
-  if (!o.vit.empty()) io::write_file(o.vit, vit);
-  if (!o.garmentcode.empty()) io::write_file(o.garmentcode, garmentcode);
-  if (!o.skeleton.empty()) io::write_file(o.skeleton, body::skeleton_obj(measured.body));
+  if (!o.parts.empty())
+    write_parts(o.parts, measured.vertex_part);
+  if (!o.features.empty())
+    io::write_file(o.features, features_text(measured.features));
+  if (!o.csv.empty())
+    io::write_file(o.csv, body::measurements_csv(measured.body));
+  if (!o.vit.empty())
+    io::write_file(o.vit, vit);
+  if (!o.garmentcode.empty())
+    io::write_file(o.garmentcode, garmentcode);
+  if (!o.skeleton.empty())
+    io::write_file(o.skeleton, body::skeleton_obj(measured.body));
   if (o.explain)
-    for (const std::string& line : measured.trail) tool.tell(line);
+    for (const std::string& line : measured.trail)
+      tool.tell(line);
   tell_findings(tool, measured.body);
   if (!measured.doubts.empty()) {
     std::string doubts;
@@ -123,9 +141,11 @@ int run(cli::Tool& tool, const Options& o) {
                 "the result is written to " + o.output +
                     ", with these findings; look at it before you use it");
   }
-  if (measured.missing.empty()) return 0;
+  if (measured.missing.empty())
+    return 0;
   std::string names;
-  for (const std::string& name : measured.missing) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : measured.missing)
+    names += (names.empty() ? "" : ", ") + name;
   throw Error(ErrorKind::FAILED, "scan.landmark-not-found"_id, o.scan, "",
               "landmarks not found: " + names,
               "the rest is written to " + o.output + ", marked in scan.findings");

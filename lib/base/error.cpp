@@ -9,11 +9,14 @@ static std::string join(const std::string& file, const std::string& place, const
                         const std::string& next_step) {
   std::string out;
   for (const std::string* part : {&file, &place, &fact}) {
-    if (part->empty()) continue;
-    if (!out.empty()) out += ": ";
+    if (part->empty())
+      continue;
+    if (!out.empty())
+      out += ": ";
     out += *part;
   }
-  if (!next_step.empty()) out += "; " + next_step;
+  if (!next_step.empty())
+    out += "; " + next_step;
   return out;
 }
 
@@ -31,7 +34,8 @@ Error input_error(MessageId id, std::string file, std::string place, std::string
 
 static std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t j = 0; j <= b.size(); ++j)
+    row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::size_t diagonal = row[0];
     row[0] = i;

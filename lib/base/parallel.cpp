@@ -18,7 +18,9 @@ static int g_threads = 1;
 void set_thread_count(int n) {
   g_threads = n > 0 ? n : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
-int thread_count() { return g_threads; }
+int thread_count() {
+  return g_threads;
+}
 
 namespace {
 
@@ -31,9 +33,11 @@ template<class Work> void spread(std::size_t chunks, const Work& work) {
   std::vector<std::thread> threads;
   for (int k = 0; k < g_threads; ++k)
     threads.emplace_back([&] {
-      for (std::size_t c; (c = next++) < chunks;) work(c);
+      for (std::size_t c; (c = next++) < chunks;)
+        work(c);
     });
-  for (std::thread& t : threads) t.join();
+  for (std::thread& t : threads)
+    t.join();
 }
 
 #else
@@ -83,7 +87,8 @@ void spread_chunks(std::size_t n, std::size_t grain, ChunkWork work, const void*
       }
     }
   });
-  if (failure) std::rethrow_exception(failure);
+  if (failure)
+    std::rethrow_exception(failure);
 }
 
 void run_alone(std::size_t n, const std::function<void(std::size_t)>& work) {
@@ -101,12 +106,15 @@ void run_alone(std::size_t n, const std::function<void(std::size_t)>& work) {
   };
   set_thread_count(1);
   std::vector<std::thread> others;
-  for (int t = 1; t < threads && t < static_cast<int>(n); ++t) others.emplace_back(take);
+  for (int t = 1; t < threads && t < static_cast<int>(n); ++t)
+    others.emplace_back(take);
   take();
-  for (std::thread& t : others) t.join();
+  for (std::thread& t : others)
+    t.join();
   set_thread_count(threads);
   for (const std::exception_ptr& f : failure)
-    if (f) std::rethrow_exception(f);
+    if (f)
+      std::rethrow_exception(f);
 }
 
 } // namespace sloper

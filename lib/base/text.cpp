@@ -9,7 +9,8 @@ namespace sloper {
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> pieces;
   std::stringstream stream(text);
-  for (std::string piece; std::getline(stream, piece, separator);) pieces.push_back(piece);
+  for (std::string piece; std::getline(stream, piece, separator);)
+    pieces.push_back(piece);
   return pieces;
 }
 
@@ -29,9 +30,13 @@ std::string millimetres(double metres, int digits) {
   return decimals(metres * 1000, digits) + " mm";
 }
 
-std::string percent(double share, int digits) { return decimals(100 * share, digits) + " %"; }
+std::string percent(double share, int digits) {
+  return decimals(100 * share, digits) + " %";
+}
 
-std::string whole_percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+std::string whole_percent(double share) {
+  return std::to_string(std::lround(100 * share)) + " %";
+}
 
 std::string place_text(double x, double y, double z) {
   return "(" + decimals(x, 3) + ", " + decimals(y, 3) + ", " + decimals(z, 3) + ")";

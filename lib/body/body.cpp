@@ -9,7 +9,8 @@ namespace sloper::body {
 
 std::string stance_of(double arms_deg) {
   constexpr double T_FROM_DEG = 70, A_FROM_DEG = 15;
-  if (arms_deg > T_FROM_DEG) return "T";
+  if (arms_deg > T_FROM_DEG)
+    return "T";
   return arms_deg > A_FROM_DEG ? "A" : "I";
 }
 
@@ -23,13 +24,16 @@ const char* part_name(Part part) {
 
 std::optional<Part> part_from_name(const std::string& name) {
   for (int k = 0; k < N_PARTS; ++k)
-    if (name == NAMES[k]) return static_cast<Part>(k);
-  if (name == "none") return Part::NONE;
+    if (name == NAMES[k])
+      return static_cast<Part>(k);
+  if (name == "none")
+    return Part::NONE;
   return std::nullopt;
 }
 
 double SkinProfile::at(double theta, double z) const {
-  if (n_theta < 1 || n_z < 1) return 0;
+  if (n_theta < 1 || n_z < 1)
+    return 0;
   const double turns = (theta + units::PI) / (2 * units::PI);
   const double column = (turns - std::floor(turns)) * n_theta;
   const double row = n_z == 1 || z_high <= z_low

@@ -15,8 +15,12 @@ namespace {
 using io::Json;
 
 /// Metres are written to the micrometre: finer digits are noise and cost bytes.
-double micron(double x) { return std::round(x * 1e6) / 1e6; }
-Json point(const Vec3& p) { return Json::array({micron(p.x()), micron(p.y()), micron(p.z())}); }
+double micron(double x) {
+  return std::round(x * 1e6) / 1e6;
+}
+Json point(const Vec3& p) {
+  return Json::array({micron(p.x()), micron(p.y()), micron(p.z())});
+}
 
 Json profile_json(const SkinProfile& profile) {
   Json j = Json::object();
@@ -25,7 +29,8 @@ Json profile_json(const SkinProfile& profile) {
   j["z_low"] = profile.z_low;
   j["z_high"] = profile.z_high;
   Json radius = Json::array();
-  for (double r : profile.radius) radius.push_back(micron(r));
+  for (double r : profile.radius)
+    radius.push_back(micron(r));
   j["radius"] = std::move(radius);
   return j;
 }
@@ -45,12 +50,14 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
   for (const Finding& finding : body.scan.findings) {
     scan["findings"].push_back(
         {{"severity", finding.severity}, {"what", finding.what}, {"place", finding.place}});
-    if (!finding.id.empty()) scan["findings"].back()["id"] = finding.id;
+    if (!finding.id.empty())
+      scan["findings"].back()["id"] = finding.id;
   }
   Json matrix = Json::array();
   for (int r = 0; r < 4; ++r) {
     Json row = Json::array();
-    for (int c = 0; c < 4; ++c) row.push_back(body.scan_to_body(r, c));
+    for (int c = 0; c < 4; ++c)
+      row.push_back(body.scan_to_body(r, c));
     matrix.push_back(row);
   }
   j["scan_to_body"] = matrix;
@@ -69,7 +76,8 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
                   {"confidence", micron(landmark.confidence)},
                   {"spread_m", micron(landmark.spread_m)}};
     entry["alternatives"] = Json::array();
-    for (const Vec3& p : landmark.alternatives) entry["alternatives"].push_back(point(p));
+    for (const Vec3& p : landmark.alternatives)
+      entry["alternatives"].push_back(point(p));
     landmarks[name] = std::move(entry);
   }
   Json& levels = j["levels"] = Json::object();
@@ -132,7 +140,8 @@ void read_scan_info(const io::Node& node, ScanInfo& scan) {
   scan.up = node.string("up", "");
   scan.front = node.string("front", "");
   scan.stature_m = node.number("stature_m", 0);
-  if (!node.has("findings")) return;
+  if (!node.has("findings"))
+    return;
   const io::Node findings = node.at("findings");
   for (std::size_t i = 0; i < findings.size(); ++i) {
     Finding& finding = scan.findings.emplace_back();
@@ -166,7 +175,8 @@ void read_skin(const std::string& path, Body& body) {
   body.face_part.assign(obj.triangles.size(), Part::NONE);
   for (std::size_t g = 0; g < obj.groups.size(); ++g) {
     const auto part = part_from_name(obj.groups[g].name);
-    if (!part) continue;
+    if (!part)
+      continue;
     const std::size_t end = g + 1 < obj.groups.size()
                                 ? static_cast<std::size_t>(obj.groups[g + 1].first_triangle)
                                 : obj.triangles.size();
@@ -185,7 +195,8 @@ Body read_body(const std::string& path) {
   Body body;
   read_scan_info(root.at("scan"), body.scan);
   const io::Node matrix = root.at("scan_to_body");
-  if (matrix.size() != 4) matrix.fail("json.wrong-type"_id, "is not a 4x4 matrix");
+  if (matrix.size() != 4)
+    matrix.fail("json.wrong-type"_id, "is not a 4x4 matrix");
   for (std::size_t r = 0; r < 4; ++r)
     for (std::size_t c = 0; c < 4; ++c)
       body.scan_to_body(static_cast<int>(r), static_cast<int>(c)) = matrix.at(r).at(c).number();
@@ -236,7 +247,7 @@ Body read_body(const std::string& path) {
   if (root.has("mesh") && root.at("mesh").is_string()) { // --anonymise leaves it out
     const std::string mesh_path = io::file_beside(root.at("mesh"));
     read_skin(mesh_path, body);
-    const int faces = static_cast<int>(body.skin.triangles.size());
+    const int faces = std::ssize(body.skin.triangles);
     if (const int expected = root.integer("mesh_faces", faces); faces != expected)
       throw input_error("body.mesh-differs"_id, mesh_path, "",
                         "has " + std::to_string(faces) + " faces where " + io::file_name(path) +
@@ -265,9 +276,10 @@ io::ObjMesh in_groups(const Body& body) {
   obj.triangles.reserve(body.skin.triangles.size());
   for (int k = 0; k <= N_PARTS; ++k) {
     const Part part = k < N_PARTS ? static_cast<Part>(k) : Part::NONE;
-    const int first = static_cast<int>(obj.triangles.size());
+    const int first = std::ssize(obj.triangles);
     for (std::size_t t = 0; t < body.skin.triangles.size(); ++t)
-      if (body.face_part[t] == part) obj.triangles.push_back(body.skin.triangles[t]);
+      if (body.face_part[t] == part)
+        obj.triangles.push_back(body.skin.triangles[t]);
     if (static_cast<int>(obj.triangles.size()) > first)
       obj.groups.push_back({part_name(part), first});
   }

@@ -34,12 +34,16 @@ std::vector<char> dressed_skin(const Body& body, const std::vector<Part>& part) 
                            : 0.06 * body.scan.stature_m;
   for (std::size_t v = 0; v < part.size(); ++v) {
     const Vec3& p = body.skin.positions[v];
-    if (part[v] == Part::HEAD || part[v] == Part::NONE || p.y() < ankle) dressed[v] = 0;
-    if (part[v] != Part::ARM_L && part[v] != Part::ARM_R) continue;
+    if (part[v] == Part::HEAD || part[v] == Part::NONE || p.y() < ankle)
+      dressed[v] = 0;
+    if (part[v] != Part::ARM_L && part[v] != Part::ARM_R)
+      continue;
     const std::string side = part[v] == Part::ARM_L ? "_l" : "_r";
-    if (!body.has_landmark("wrist" + side) || !body.has_landmark("hand_tip" + side)) continue;
+    if (!body.has_landmark("wrist" + side) || !body.has_landmark("hand_tip" + side))
+      continue;
     const Vec3 wrist = body.landmark("wrist" + side);
-    if ((p - wrist).dot(body.landmark("hand_tip" + side) - wrist) > 0) dressed[v] = 0;
+    if ((p - wrist).dot(body.landmark("hand_tip" + side) - wrist) > 0)
+      dressed[v] = 0;
   }
   return dressed;
 }
@@ -67,7 +71,8 @@ void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
   double sum = 0;
   int n = 0;
   for (int side = 0; side < 2; ++side) {
-    if (arms[side].sections.empty()) continue;
+    if (arms[side].sections.empty())
+      continue;
     const double deg = units::degrees(std::acos(std::clamp(-arms[side].out.y(), -1.0, 1.0)));
     (side == 0 ? body.arm_l_deg : body.arm_r_deg) = deg;
     sum += deg;
@@ -168,9 +173,11 @@ void describe_likeness(const Corrections& corrections, MeasuredScan& result) {
 void shift(Body& body, const Vec3& by) {
   for (auto& [name, landmark] : body.landmarks) {
     landmark.p += by;
-    for (Vec3& p : landmark.alternatives) p += by;
+    for (Vec3& p : landmark.alternatives)
+      p += by;
   }
-  for (Vec3& p : body.skin.positions) p += by;
+  for (Vec3& p : body.skin.positions)
+    p += by;
 }
 
 /// Says after each phase how long it took; with -v only, and nothing depends on it.
@@ -218,7 +225,8 @@ std::vector<Vec3> points_at_seat(const std::vector<Vec3>& spread, const Canonica
 std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail,
                               Phases* phases, ShapeFeatures& shape) {
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
-  if (phases) phases->done("slicing");
+  if (phases)
+    phases->done("slicing");
   const bool crotch_moved = doubt_crotch(levels, in.seat_points, in.rules, in.rebuilt, in.whole,
                                          body.scan.findings, trail);
   const EdgeGraph graph(body.skin);
@@ -282,16 +290,19 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     trial.skin.positions.reserve(body.skin.positions.size());
     for (std::size_t v = 0; v < body.skin.positions.size(); ++v) {
       double bump = -2;
-      for (int k = 0; k < 4; ++k) bump += random.uniform();
+      for (int k = 0; k < 4; ++k)
+        bump += random.uniform();
       trial.skin.positions.push_back(
           turn * (body.skin.positions[v] + 1.7 * sigma * bump * normals[v]) + lift);
     }
     std::vector<Vec3> points;
     points.reserve(in.scan_points.size());
-    for (const Vec3& p : in.scan_points) points.push_back(turn * p + lift);
+    for (const Vec3& p : in.scan_points)
+      points.push_back(turn * p + lift);
     std::vector<Vec3> seat_points;
     seat_points.reserve(in.seat_points.size());
-    for (const Vec3& p : in.seat_points) seat_points.push_back(turn * p + lift);
+    for (const Vec3& p : in.seat_points)
+      seat_points.push_back(turn * p + lift);
     std::vector<std::string> unheard;
     ShapeFeatures shape;
     apply_rules({points, seat_points, in.rebuilt, in.whole, in.s, in.rules, in.corrections}, trial,
@@ -315,9 +326,11 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
   for (auto& [name, landmark] : body.landmarks) {
     landmark.spread_m = std::max(landmarks[name].rms(), 1e-4);
     landmark.confidence *= 0.5 + 0.5 * landmarks[name].n / runs;
-    if (landmark.spread_m > UNSURE * in.s) landmark.confidence *= 0.7;
+    if (landmark.spread_m > UNSURE * in.s)
+      landmark.confidence *= 0.7;
   }
-  for (auto& [name, girth] : body.girths) girth.spread_m = girths[name].rms();
+  for (auto& [name, girth] : body.girths)
+    girth.spread_m = girths[name].rms();
   for (auto& [name, level] : body.levels) {
     level.y_spread_m = heights[name].rms();
     level.girth_spread_m = level_girths[name].rms();
@@ -342,12 +355,14 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   SegmentedScan sorted = segment_without(loose.is_extra, as_given, options.up);
   // a scan that lies or leans in its file is set upright first
   std::optional<Eigen::Matrix3d> upright;
-  if (options.up == "auto" && !options.torso_only) upright = upright_turn(as_given, sorted);
+  if (options.up == "auto" && !options.torso_only)
+    upright = upright_turn(as_given, sorted);
   TriangleMesh turned;
   if (upright) {
     turned.triangles = as_given.triangles;
     turned.positions.reserve(as_given.positions.size());
-    for (const Vec3& p : as_given.positions) turned.positions.push_back(*upright * p);
+    for (const Vec3& p : as_given.positions)
+      turned.positions.push_back(*upright * p);
     sorted = segment_without(loose.is_extra, turned, "y");
     const Vec3 up = upright->row(1).transpose();
     char text[80];
@@ -362,12 +377,14 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   if (is_torso) {
     torso = complete_torso(given, options.up, file);
     int up_axis = torso.up.y() != 0 ? 1 : 2;
-    if (torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x())) up_axis = 0;
+    if (torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()))
+      up_axis = 0;
     sorted = segment_scan(torso.scan, {"xyz"[up_axis]});
   }
   const std::vector<char> labelled = sorted.is_body; // the rim of a torso is body, but no skin
   for (std::size_t v = 0; v < torso.is_cut.size(); ++v)
-    if (torso.is_cut[v]) sorted.is_body[v] = 0;
+    if (torso.is_cut[v])
+      sorted.is_body[v] = 0;
   const TriangleMesh& scan = is_torso ? torso.scan : given;
   const std::vector<Vec3> shape = points_of_body(scan, sorted.is_body, SHAPE_POINTS);
   CanonicalFrame frame = guess_frame(
@@ -400,7 +417,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   const double s = frame.stature_m;
   std::vector<Vec3> scan_points;
   for (std::size_t v = 0; v < positions.size(); ++v)
-    if (sorted.is_body[v]) scan_points.push_back(positions[v]);
+    if (sorted.is_body[v])
+      scan_points.push_back(positions[v]);
   const std::vector<Vec3> seat_points = points_at_seat(shape, frame);
   const RuleInput input{scan_points, seat_points,   skin.rebuilt,        skin.whole,
                         s,           options.rules, *options.corrections};
@@ -415,9 +433,12 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   phases.done("rules");
   const int usual_jitter = body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER : 0;
   const int jitter = options.jitter >= 0 ? options.jitter : usual_jitter;
-  if (jitter > 0) measure_spread(input, jitter, skin.noise_m, body, reporter);
-  if (jitter > 0) phases.done("spread");
-  else result.trail.push_back("spread: not measured, the usual one of each rule is given");
+  if (jitter > 0)
+    measure_spread(input, jitter, skin.noise_m, body, reporter);
+  if (jitter > 0)
+    phases.done("spread");
+  else
+    result.trail.push_back("spread: not measured, the usual one of each rule is given");
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part =
       label_scan(positions, labelled, skin.of_scan, body.skin, skin_part, 0.03 * s);
@@ -440,7 +461,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   if (body.has_landmark("hip_center"))
     origin = Vec3(-body.landmark("hip_center").x(), 0, -body.landmark("hip_center").z());
   shift(body, origin);
-  if (is_torso) forget_unseen(body, transform(frame.scan_to_body, torso.seen_from * torso.up).y());
+  if (is_torso)
+    forget_unseen(body, transform(frame.scan_to_body, torso.seen_from * torso.up).y());
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
   if (upright) {
     body.scan_to_body.block<3, 3>(0, 0) *= *upright;
@@ -463,7 +485,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   if (!is_torso)
     for (const Finding& doubt : doubts_of(body, options.corrections->unlikeness(result.features))) {
       body.scan.findings.push_back(doubt);
-      if (doubt.severity == "error") result.doubts.push_back(doubt);
+      if (doubt.severity == "error")
+        result.doubts.push_back(doubt);
     }
   for (const char* name : ESSENTIAL)
     if (!body.has_landmark(name) && !(is_torso && may_lack(name))) {

@@ -37,12 +37,14 @@ std::vector<Part> label_skin(const Finder& f) {
     const double border = crotch - 0.006 * s +
                           (hip_y - crotch + 0.002 * s) * std::min(1.0, std::abs(p.x()) / hip_x) +
                           0.009 * s * std::clamp((p.z() - hip_z) / (0.06 * s), -1.0, 1.0);
-    if (p.y() < border) part[v] = p.x() > f.levels.crotch_point().x() ? Part::LEG_L : Part::LEG_R;
+    if (p.y() < border)
+      part[v] = p.x() > f.levels.crotch_point().x() ? Part::LEG_L : Part::LEG_R;
   }
   // arms: beyond the plane through arm pit and the top of the shoulder, on the traced arm
   for (int side = 0; side < 2; ++side) {
     const ArmTrace& arm = f.arms[side];
-    if (arm.sections.empty()) continue;
+    if (arm.sections.empty())
+      continue;
     const std::string name = std::string("shoulder_joint") + side_suffix(side);
     const Vec3 joint = f.has(name) ? f.at(name) : arm.at(arm.length() + 0.02 * s);
     const double outward = arm.left ? 1 : -1;
@@ -50,14 +52,16 @@ std::vector<Part> label_skin(const Finder& f) {
     const Vec3 top = joint + Vec3(-outward * 0.014 * s, 0.037 * s, -0.007 * s);
     Vec3 n = Vec3(top.y() - corner.y(), corner.x() - top.x(), 0)
                  .normalized(); // square to the line from pit to top
-    if (n.x() * outward < 0) n = -n;
+    if (n.x() * outward < 0)
+      n = -n;
     n = (n + Vec3(0, 0, 0.13)).normalized();
     const Vec3 base = 0.5 * (top + corner);
     const ArmRegion region(arm, skin, s);
     for (const int v : region.vertices()) {
       // a hand may be anywhere, and before the trunk as well
       const bool is_near_border = (skin.positions[v] - base).norm() < BORDER_REACH * s;
-      if (is_near_border && (skin.positions[v] - base).dot(n) < 0) continue;
+      if (is_near_border && (skin.positions[v] - base).dot(n) < 0)
+        continue;
       part[v] = side == 0 ? Part::ARM_L : Part::ARM_R;
     }
   }
@@ -81,11 +85,15 @@ std::vector<Part> label_scan(const std::vector<Vec3>& positions, const std::vect
   std::vector<Part> part(positions.size(), Part::NONE);
   const PointGrid near(skin.positions, 0.25 * reach), far(skin.positions, reach);
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (!is_body[v]) continue;
+    if (!is_body[v])
+      continue;
     int i = of_scan.empty() ? -1 : of_scan[v];
-    if (i < 0) i = near.nearest(positions[v]);
-    if (i < 0) i = far.nearest(positions[v]);
-    if (i >= 0) part[v] = skin_part[i];
+    if (i < 0)
+      i = near.nearest(positions[v]);
+    if (i < 0)
+      i = far.nearest(positions[v]);
+    if (i >= 0)
+      part[v] = skin_part[i];
   }
   return part;
 }

@@ -39,7 +39,8 @@ Vec3 blend(const std::vector<DualQuaternion>& motions,
   const Quaterniond& pivot = motions[joint[0]].real;
   Eigen::Vector4d real = Eigen::Vector4d::Zero(), dual = Eigen::Vector4d::Zero();
   for (int k = 0; k < SkinWeights::MOST; ++k) {
-    if (share[k] <= 0) continue;
+    if (share[k] <= 0)
+      continue;
     const DualQuaternion& q = motions[joint[k]];
     const double w = q.real.dot(pivot) < 0 ? -share[k] : share[k]; // the short way round
     real += w * q.real.coeffs();
@@ -70,7 +71,8 @@ std::vector<DualQuaternion> motions_of(const Body& body, const SkinWeights& weig
                                        const Pose& pose) {
   const std::map<std::string, Isometry3d> motion = joint_motions(body, pose);
   std::vector<DualQuaternion> list;
-  for (const std::string& name : weights.joints) list.push_back(dual_quaternion(motion.at(name)));
+  for (const std::string& name : weights.joints)
+    list.push_back(dual_quaternion(motion.at(name)));
   return list;
 }
 
@@ -79,7 +81,8 @@ std::vector<DualQuaternion> motions_of(const Body& body, const SkinWeights& weig
 std::vector<std::string> joint_names(const Body& body) {
   std::vector<std::string> names = {"root"};
   for (const Bone& b : body.bones)
-    if (!b.name.starts_with("pelvis")) names.push_back(b.name);
+    if (!b.name.starts_with("pelvis"))
+      names.push_back(b.name);
   return names;
 }
 
@@ -98,15 +101,18 @@ std::map<std::string, Isometry3d> joint_motions(const Body& body, const Pose& po
   };
   Vec3 hips = Vec3::Zero();
   for (const Bone& b : body.bones)
-    if (b.name == "spine") hips = b.head;
+    if (b.name == "spine")
+      hips = b.head;
   motion["root"] = Isometry3d(Eigen::Translation3d(pose.shift)) * about(turn("root"), hips);
   std::map<std::string, Quaterniond> own;
-  for (const std::string& name : names) own[name] = turn(name);
+  for (const std::string& name : names)
+    own[name] = turn(name);
   for (const bool left :
        {true, false}) { // the clavicle rises with the arm, which keeps its direction
     const std::string arm = left ? "upper_arm_l" : "upper_arm_r",
                       clavicle = left ? "clavicle_l" : "clavicle_r";
-    if (pose.turn.count(clavicle) || !pose.turn.count(arm) || !own.count(clavicle)) continue;
+    if (pose.turn.count(clavicle) || !pose.turn.count(arm) || !own.count(clavicle))
+      continue;
     own[clavicle] = clavicle_lift(body, left, own[arm]);
     own[arm] = own[clavicle].conjugate() * own[arm];
   }
@@ -137,16 +143,19 @@ Body posed_body(const Body& body, const SkinWeights& weights, const Pose& pose) 
       joint_of; // landmark at a bone's end -> the bone that carries it
   for (const Bone& b : body.bones)
     for (const auto& [name, landmark] : body.landmarks) {
-      if ((landmark.p - b.tail).norm() < 1e-12) joint_of[name] = b.name;
+      if ((landmark.p - b.tail).norm() < 1e-12)
+        joint_of[name] = b.name;
       else if ((landmark.p - b.head).norm() < 1e-12 && !joint_of.count(name))
         joint_of[name] = b.name;
     }
   const double reach = 0.15 * std::max(body.scan.stature_m, 0.3);
   const PointGrid near(body.skin.positions, 0.1 * reach), far(body.skin.positions, reach);
   auto move = [&](const std::string& name, const Vec3& p) -> Vec3 {
-    if (const auto it = joint_of.find(name); it != joint_of.end()) return motion.at(it->second) * p;
+    if (const auto it = joint_of.find(name); it != joint_of.end())
+      return motion.at(it->second) * p;
     int v = near.nearest(p);
-    if (v < 0) v = far.nearest(p);
+    if (v < 0)
+      v = far.nearest(p);
     return v < 0 ? Vec3(motion.at("root") * p)
                  : blend(motions, weights.joint[v], weights.share[v], p);
   };
@@ -170,7 +179,8 @@ Body posed_body(const Body& body, const SkinWeights& weights, const Pose& pose) 
         sum += deg;
         ++n;
       }
-  if (n) out.stance_class = stance_of(sum / n);
+  if (n)
+    out.stance_class = stance_of(sum / n);
   out.frames.clear();
   build_frames(out);
   out.scan.findings.push_back(

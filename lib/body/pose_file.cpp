@@ -60,7 +60,8 @@ public:
   }
   std::string_view must() {
     const std::string_view word = next();
-    if (word.empty()) fail("the file ends early", "the copy is probably truncated");
+    if (word.empty())
+      fail("the file ends early", "the copy is probably truncated");
     return word;
   }
   void expect(const char* wanted) {
@@ -69,7 +70,8 @@ public:
   }
   double number() {
     std::string_view word = must();
-    if (word[0] == '+') word.remove_prefix(1);
+    if (word[0] == '+')
+      word.remove_prefix(1);
     double x = 0;
     const auto result = std::from_chars(word.data(), word.data() + word.size(), x);
     if (word.empty() || result.ec != std::errc() || result.ptr != word.data() + word.size() ||
@@ -79,7 +81,8 @@ public:
   }
   int count(int most, const char* what) {
     const double x = number();
-    if (x < 0 || x > most || x != std::floor(x)) fail(std::string("is not a count of ") + what);
+    if (x < 0 || x > most || x != std::floor(x))
+      fail(std::string("is not a count of ") + what);
     return static_cast<int>(x);
   }
   [[noreturn]] void fail(const std::string& fact, const std::string& next_step = {}) const {
@@ -101,7 +104,8 @@ Bvh parse(std::string_view text, const std::string& name) {
   words.expect("ROOT");
   std::vector<int> open; // joints whose brace is open; -1 for an end site
   auto begin = [&](int parent) {
-    if (bvh.joints.size() >= MAX_JOINTS) words.fail("has more joints than any body");
+    if (bvh.joints.size() >= MAX_JOINTS)
+      words.fail("has more joints than any body");
     BvhJoint joint;
     joint.name = std::string(words.must());
     joint.parent = parent;
@@ -113,11 +117,14 @@ Bvh parse(std::string_view text, const std::string& name) {
   begin(-1);
   while (!open.empty()) {
     const std::string_view word = words.must();
-    if (word == "}") open.pop_back();
+    if (word == "}")
+      open.pop_back();
     else if (word == "OFFSET") {
       Vec3 offset;
-      for (int axis = 0; axis < 3; ++axis) offset[axis] = words.number();
-      if (open.back() >= 0) bvh.joints[open.back()].offset = offset;
+      for (int axis = 0; axis < 3; ++axis)
+        offset[axis] = words.number();
+      if (open.back() >= 0)
+        bvh.joints[open.back()].offset = offset;
       else if (open.size() > 1) { // an end site: kept as a joint without channels, so that the last
                                   // bone has a direction
         BvhJoint end;
@@ -127,27 +134,32 @@ Bvh parse(std::string_view text, const std::string& name) {
         bvh.joints.push_back(end);
       }
     } else if (word == "CHANNELS") {
-      if (open.back() < 0) words.fail("an end site has no channels");
+      if (open.back() < 0)
+        words.fail("an end site has no channels");
       const int n = words.count(6, "channels");
       for (int k = 0; k < n; ++k) {
         static const char* names[] = {"Xposition", "Yposition", "Zposition",
                                       "Xrotation", "Yrotation", "Zrotation"};
         const std::string_view channel = words.must();
         const auto* it = std::find(std::begin(names), std::end(names), channel);
-        if (it == std::end(names)) words.fail(quoted(channel) + " is not a BVH channel");
+        if (it == std::end(names))
+          words.fail(quoted(channel) + " is not a BVH channel");
         bvh.joints[open.back()].channels.push_back(static_cast<int>(it - std::begin(names)));
       }
       bvh.joints[open.back()].first_channel = bvh.n_channels;
       bvh.n_channels += n;
     } else if (word == "JOINT") {
-      if (open.back() < 0) words.fail("an end site has no joints");
+      if (open.back() < 0)
+        words.fail("an end site has no joints");
       begin(open.back());
     } else if (word == "End") {
       words.expect("Site");
       words.expect("{");
-      if (open.back() < 0) words.fail("an end site within an end site");
+      if (open.back() < 0)
+        words.fail("an end site within an end site");
       open.push_back(-1);
-    } else words.fail(quoted(word) + " is not expected in a hierarchy");
+    } else
+      words.fail(quoted(word) + " is not expected in a hierarchy");
   }
   words.expect("MOTION");
   words.expect("Frames:");
@@ -155,10 +167,13 @@ Bvh parse(std::string_view text, const std::string& name) {
   words.expect("Frame");
   words.expect("Time:");
   bvh.frame_s = words.number();
-  if (bvh.frame_s <= 0) words.fail("the time between frames is not positive");
-  if (bvh.frames == 0 || bvh.n_channels == 0) words.fail("holds no motion");
+  if (bvh.frame_s <= 0)
+    words.fail("the time between frames is not positive");
+  if (bvh.frames == 0 || bvh.n_channels == 0)
+    words.fail("holds no motion");
   for (int f = 0; f < bvh.frames; ++f)
-    for (int c = 0; c < bvh.n_channels; ++c) bvh.values.push_back(words.number());
+    for (int c = 0; c < bvh.n_channels; ++c)
+      bvh.values.push_back(words.number());
   return bvh;
 }
 
@@ -177,7 +192,8 @@ const Names SIDED[] = {
     {"foot", {"leftfoot", "lfoot", "leftankle", "lankle"}}};
 
 std::string plain_name(std::string name) {
-  if (const auto colon = name.rfind(':'); colon != std::string::npos) name.erase(0, colon + 1);
+  if (const auto colon = name.rfind(':'); colon != std::string::npos)
+    name.erase(0, colon + 1);
   std::string out;
   for (const char c : name)
     if (std::isalnum(static_cast<unsigned char>(c)))
@@ -207,7 +223,8 @@ Vec3 rest_direction(const Bvh& bvh, int joint) {
 
 Vec3 rest_place(const Bvh& bvh, int joint) {
   Vec3 p = Vec3::Zero();
-  for (int j = joint; j > 0; j = bvh.joints[j].parent) p += bvh.joints[j].offset;
+  for (int j = joint; j > 0; j = bvh.joints[j].parent)
+    p += bvh.joints[j].offset;
   return p;
 }
 
@@ -230,7 +247,8 @@ Pose read_pose(const std::string& path, const Body& body) {
   for (const bool left : {true, false}) {
     const std::string own = left ? "arm_l_deg" : "arm_r_deg",
                       key = root.has(own) ? own : "arms_deg";
-    if (!root.has(key)) continue;
+    if (!root.has(key))
+      continue;
     const double degrees = root.at(key).number();
     if (degrees < 0 || degrees > 180)
       root.at(key).fail("json.out-of-range"_id,
@@ -246,11 +264,13 @@ Pose read_pose(const std::string& path, const Body& body) {
                   "the body has no joint \"" + name + "\"" + did_you_mean(name, names, "\""));
       const Vec3 angles = root.at("turn_deg").at(name).vec3();
       Quaterniond q = Quaterniond::Identity();
-      for (int axis = 0; axis < 3; ++axis) q = about(axis, units::radians(angles[axis])) * q;
+      for (int axis = 0; axis < 3; ++axis)
+        q = about(axis, units::radians(angles[axis])) * q;
       const auto before = pose.turn.find(name);
       pose.turn[name] = before == pose.turn.end() ? q : q * before->second;
     }
-  if (root.has("shift_m")) pose.shift = root.at("shift_m").vec3();
+  if (root.has("shift_m"))
+    pose.shift = root.at("shift_m").vec3();
   return pose;
 }
 
@@ -258,17 +278,20 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
   const Bvh bvh = parse(text, name);
   auto bone = [&](const std::string& wanted) -> const Bone* {
     for (const Bone& b : body.bones)
-      if (b.name == wanted) return &b;
+      if (b.name == wanted)
+        return &b;
     return nullptr;
   };
   // a figure whose left leg hangs at -x looks backwards
   Quaterniond facing = Quaterniond::Identity();
   const int thigh = find_joint(bvh, SIDED[4].theirs, true);
-  if (thigh >= 0 && rest_place(bvh, thigh).x() < 0) facing = about(1, units::PI);
+  if (thigh >= 0 && rest_place(bvh, thigh).x() < 0)
+    facing = about(1, units::PI);
   std::vector<Followed> followed;
   auto follow = [&](const std::string& ours, int theirs, bool align) {
     const Bone* b = bone(ours);
-    if (theirs < 0 || (!b && ours != "root")) return;
+    if (theirs < 0 || (!b && ours != "root"))
+      return;
     Followed f{ours, theirs, Quaterniond::Identity()};
     const Vec3 rest = rest_direction(bvh, theirs);
     if (align && b && rest.norm() > 0.5)
@@ -281,7 +304,8 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
   int chest = -1;
   for (const char* wanted : {"spine3", "upperchest", "chest4", "chest3", "chest2", "spine2",
                              "spine1", "chest", "spine", "abdomen"})
-    if (chest < 0) chest = find_joint(bvh, {wanted}, true);
+    if (chest < 0)
+      chest = find_joint(bvh, {wanted}, true);
   follow("spine", chest, false);
   follow("head", find_joint(bvh, {"head", "neck"}, true), false);
   for (const bool left : {true, false})
@@ -303,7 +327,8 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
     const double theirs = bvh.joints[shin].offset.norm() + bvh.joints[foot].offset.norm();
     const double ours = (bone("thigh_l")->tail - bone("thigh_l")->head).norm() +
                         (bone("shin_l")->tail - bone("shin_l")->head).norm();
-    if (theirs > 1e-9) scale = ours / theirs;
+    if (theirs > 1e-9)
+      scale = ours / theirs;
   }
   Motion motion;
   const int stride =
@@ -321,13 +346,16 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
       for (std::size_t k = 0; k < joint.channels.size(); ++k) {
         const double x = values[joint.first_channel + static_cast<int>(k)];
         if (joint.channels[k] < 3) {
-          if (j == 0) place[joint.channels[k]] = x;
-        } else q = q * about(joint.channels[k] - 3, units::radians(x));
+          if (j == 0)
+            place[joint.channels[k]] = x;
+        } else
+          q = q * about(joint.channels[k] - 3, units::radians(x));
       }
       world[j] = joint.parent < 0 ? q : world[joint.parent] * q;
     }
     place = facing * place;
-    if (!start) start = Vec3(place.x(), 0, place.z());
+    if (!start)
+      start = Vec3(place.x(), 0, place.z());
     Pose pose;
     std::map<std::string, Quaterniond> of_ours;
     for (const Followed& f : followed)
@@ -342,7 +370,8 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
       const Quaterniond above = parent == absolute.end() ? absolute["root"] : parent->second;
       const auto own = of_ours.find(b.name);
       absolute[b.name] = own == of_ours.end() ? above : own->second;
-      if (own != of_ours.end()) pose.turn[b.name] = above.conjugate() * own->second;
+      if (own != of_ours.end())
+        pose.turn[b.name] = above.conjugate() * own->second;
     }
     pose.turn["root"] = absolute["root"];
     if (scale > 0) {

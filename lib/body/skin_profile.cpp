@@ -17,14 +17,18 @@ constexpr double MIN_RADIUS = 0.002; ///< m, where the axis itself leaves the sk
 bool fill_row(double* row, int n) {
   int first = -1;
   for (int i = 0; i < n && first < 0; ++i)
-    if (row[i] > 0) first = i;
-  if (first < 0) return false;
+    if (row[i] > 0)
+      first = i;
+  if (first < 0)
+    return false;
   int last = first;
   for (int k = 1; k <= n; ++k) {
     const int i = (first + k) % n;
-    if (row[i] <= 0) continue;
+    if (row[i] <= 0)
+      continue;
     const int gap = (i - last + n) % n == 0 ? n : (i - last + n) % n;
-    for (int j = 1; j < gap; ++j) row[(last + j) % n] = row[last] + (row[i] - row[last]) * j / gap;
+    for (int j = 1; j < gap; ++j)
+      row[(last + j) % n] = row[last] + (row[i] - row[last]) * j / gap;
     last = i;
   }
   return true;
@@ -32,11 +36,15 @@ bool fill_row(double* row, int n) {
 
 void fill_rows(SkinProfile& profile, const std::vector<char>& filled) {
   for (int z = 0; z < profile.n_z; ++z) {
-    if (filled[z]) continue;
+    if (filled[z])
+      continue;
     int below = z, above = z;
-    while (below >= 0 && !filled[below]) --below;
-    while (above < profile.n_z && !filled[above]) ++above;
-    if (below < 0 && above >= profile.n_z) continue;
+    while (below >= 0 && !filled[below])
+      --below;
+    while (above < profile.n_z && !filled[above])
+      ++above;
+    if (below < 0 && above >= profile.n_z)
+      continue;
     for (int k = 0; k < profile.n_theta; ++k) {
       const double a = below >= 0 ? profile.radius[below * profile.n_theta + k]
                                   : profile.radius[above * profile.n_theta + k];
@@ -86,13 +94,13 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin,
     }
     const int first = std::max(0, static_cast<int>(std::floor((low - z_low) / step))),
               last = std::min(N_Z - 1, static_cast<int>(std::ceil((high - z_low) / step)));
-    for (int k = first; k <= last; ++k) rows[k].push_back(t);
+    for (int k = first; k <= last; ++k)
+      rows[k].push_back(t);
   }
   constexpr double column = 2 * units::PI / N_THETA;
   std::array<Vec2, N_THETA> rays;
   for (int k = 0; k < N_THETA; ++k)
-    rays[static_cast<std::size_t>(k)] =
-        Vec2(std::cos(-units::PI + k * column), std::sin(-units::PI + k * column));
+    rays[k] = Vec2(std::cos(-units::PI + k * column), std::sin(-units::PI + k * column));
   std::vector<char> filled(N_Z, 0);
   const Vec3 side = (frame.mirrored ? -1.0 : 1.0) * a.cross(frame.theta_zero);
   for (int z = 0; z < N_Z; ++z) {
@@ -103,7 +111,8 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin,
       segments.insert(segments.end(), loop.segments.begin(), loop.segments.end());
     if (taut && segments.size() > 2) {
       std::vector<Vec2> points;
-      for (const auto& s : segments) points.push_back(s[0]);
+      for (const auto& s : segments)
+        points.push_back(s[0]);
       const std::vector<Vec2> hull = convex_hull(std::move(points));
       segments.clear();
       for (std::size_t i = 0; i < hull.size(); ++i)
@@ -112,15 +121,19 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin,
     for (const auto& s :
          segments) { // the ray of every column that this segment crosses; the outermost counts
       double t0 = std::atan2(s[0].y(), s[0].x()), t1 = std::atan2(s[1].y(), s[1].x());
-      if (t1 - t0 > units::PI) t1 -= 2 * units::PI;
-      if (t0 - t1 > units::PI) t1 += 2 * units::PI;
-      if (t1 < t0) std::swap(t0, t1);
+      if (t1 - t0 > units::PI)
+        t1 -= 2 * units::PI;
+      if (t0 - t1 > units::PI)
+        t1 += 2 * units::PI;
+      if (t1 < t0)
+        std::swap(t0, t1);
       for (int k = static_cast<int>(std::ceil((t0 + units::PI) / column));
            k <= static_cast<int>(std::floor((t1 + units::PI) / column)); ++k) {
         const int at = (k % N_THETA + N_THETA) % N_THETA;
-        const Vec2 &ray = rays[static_cast<std::size_t>(at)], d = s[1] - s[0];
+        const Vec2 &ray = rays[at], d = s[1] - s[0];
         const double cross = ray.x() * d.y() - ray.y() * d.x();
-        if (std::abs(cross) < 1e-12) continue;
+        if (std::abs(cross) < 1e-12)
+          continue;
         const double r = (s[0].x() * d.y() - s[0].y() * d.x()) / cross;
         row[at] = std::max(row[at], r);
       }
@@ -128,7 +141,8 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin,
     filled[z] = fill_row(row, N_THETA);
   }
   fill_rows(profile, filled);
-  for (double& r : profile.radius) r = std::max(r, MIN_RADIUS);
+  for (double& r : profile.radius)
+    r = std::max(r, MIN_RADIUS);
   smooth(profile);
   return profile;
 }
@@ -143,11 +157,13 @@ void build_frames(Body& body) {
   };
   auto add = [&](const std::string& name, const std::string& lower, const std::string& upper,
                  bool mirrored, std::initializer_list<Part> parts, double z_low, double z_high) {
-    if (!body.has_landmark(lower) || !body.has_landmark(upper)) return;
+    if (!body.has_landmark(lower) || !body.has_landmark(upper))
+      return;
     BodyFrame frame;
     frame.frame =
         make_part_frame(body.landmark(lower), body.landmark(upper), Vec3::UnitZ(), mirrored);
-    if (frame.frame.length() < 1e-3) return;
+    if (frame.frame.length() < 1e-3)
+      return;
     frame.profile = skin_profile(frame.frame, body.skin, triangles_of(parts), z_low, z_high, false);
     body.frames[name] = frame;
   };

@@ -29,7 +29,8 @@ std::vector<Part> vertex_parts(const Body& body) {
                                               std::array<int, N_PARTS>{});
   for (std::size_t t = 0; t < body.skin.triangles.size(); ++t)
     if (body.face_part[t] != Part::NONE)
-      for (const int v : body.skin.triangles[t]) ++votes[v][static_cast<int>(body.face_part[t])];
+      for (const int v : body.skin.triangles[t])
+        ++votes[v][static_cast<int>(body.face_part[t])];
   std::vector<Part> part(votes.size(), Part::TORSO);
   for (std::size_t v = 0; v < votes.size(); ++v)
     if (const auto most = std::max_element(votes[v].begin(), votes[v].end()); *most > 0)
@@ -43,13 +44,16 @@ std::vector<double> from_border(const Body& body, const EdgeGraph& graph,
   std::vector<char> on_border(part.size(), 0);
   for (const Triangle& t : body.skin.triangles) {
     int n = 0;
-    for (const int v : t) n += part[v] == inside;
+    for (const int v : t)
+      n += part[v] == inside;
     if (n > 0 && n < 3)
-      for (const int v : t) on_border[v] = 1;
+      for (const int v : t)
+        on_border[v] = 1;
   }
   std::vector<int> sources;
   for (std::size_t v = 0; v < part.size(); ++v)
-    if (on_border[v]) sources.push_back(static_cast<int>(v));
+    if (on_border[v])
+      sources.push_back(static_cast<int>(v));
   std::vector<double> d = graph.distances(sources, reach, {});
   for (std::size_t v = 0; v < d.size(); ++v)
     d[v] = (part[v] == inside ? 1 : -1) * std::min(d[v], reach);
@@ -70,7 +74,8 @@ SkinWeights skin_weights(const Body& body) {
                       "measure the scan again without --anonymise");
   auto bone = [&](const std::string& name) -> const Bone* {
     for (const Bone& b : body.bones)
-      if (b.name == name) return &b;
+      if (b.name == name)
+        return &b;
     return nullptr;
   };
   const Bone* spine = bone("spine");
@@ -95,12 +100,14 @@ SkinWeights skin_weights(const Body& body) {
                       {Part::LEG_L, {"thigh_l", "shin_l", "foot_l"}, GROIN},
                       {Part::LEG_R, {"thigh_r", "shin_r", "foot_r"}, GROIN}};
   for (const Limb& limb : all) {
-    if (joint(limb.bones[0]) < 0) continue;
+    if (joint(limb.bones[0]) < 0)
+      continue;
     const double reach = limb.blend * s;
     const std::vector<double> d = from_border(body, graph, part, limb.part, reach);
     for (std::size_t v = 0; v < n; ++v) {
       const double whole = smooth_step(0.5 + 0.5 * d[v] / reach);
-      if (whole <= 0) continue;
+      if (whole <= 0)
+        continue;
       limbs[v] += whole;
       // from bone to bone: by the place along the direction halfway between them
       double left = whole;
@@ -108,7 +115,8 @@ SkinWeights skin_weights(const Body& body) {
         double on = 0;
         const Bone *here = bone(limb.bones[k]),
                    *next = k < 2 && !limb.bones[k + 1].empty() ? bone(limb.bones[k + 1]) : nullptr;
-        if (!here) break;
+        if (!here)
+          break;
         if (next) {
           const Vec3 axis =
               ((here->tail - here->head).normalized() + (next->tail - next->head).normalized())
@@ -124,7 +132,8 @@ SkinWeights skin_weights(const Body& body) {
   }
   std::vector<std::pair<const Bone*, int>> clavicles; // with their joints
   for (const char* name : {"clavicle_l", "clavicle_r"})
-    if (const int j = joint(name); j >= 0) clavicles.emplace_back(bone(name), j);
+    if (const int j = joint(name); j >= 0)
+      clavicles.emplace_back(bone(name), j);
   const auto of_clavicle = [&](const Bone& b, const Vec3& p) {
     const Vec3 along_bone = b.tail - b.head;
     const double along = (p.x() - b.head.x()) * along_bone.x() /
@@ -136,11 +145,13 @@ SkinWeights skin_weights(const Body& body) {
   const Vec3 axis = spine->tail - spine->head;
   for (std::size_t v = 0; v < n; ++v) {
     if (limbs[v] > 1)
-      for (auto& [j, w] : share[v]) w /= limbs[v];
+      for (auto& [j, w] : share[v])
+        w /= limbs[v];
     const double trunk = std::max(0.0, 1 - limbs[v]);
     const double z = (body.skin.positions[v] - spine->head).dot(axis) / axis.squaredNorm();
     const double upper = smooth_step((z - BEND_LOW) / (BEND_HIGH - BEND_LOW));
-    if (trunk <= 0) continue;
+    if (trunk <= 0)
+      continue;
     share[v][0] += trunk * (1 - upper);
     double on_spine = trunk * upper;
     for (const auto& [clavicle, j] : clavicles)
@@ -155,11 +166,13 @@ SkinWeights skin_weights(const Body& body) {
   for (std::size_t v = 0; v < n; ++v) {
     std::vector<std::pair<double, int>> most;
     for (const auto& [j, w] : share[v])
-      if (w > 1e-6) most.emplace_back(-w, j);
+      if (w > 1e-6)
+        most.emplace_back(-w, j);
     std::sort(most.begin(), most.end());
     most.resize(std::min<std::size_t>(most.size(), SkinWeights::MOST));
     double sum = 0;
-    for (const auto& [w, j] : most) sum -= w;
+    for (const auto& [w, j] : most)
+      sum -= w;
     for (std::size_t k = 0; k < most.size(); ++k) {
       out.joint[v][k] = most[k].second;
       out.share[v][k] = -most[k].first / sum;

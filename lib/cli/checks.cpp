@@ -18,10 +18,14 @@ static std::string number_text(double value) {
 Check finite_in(double low, double high, const std::string& unit) {
   const std::string tail = unit.empty() ? "" : " " + unit;
   std::string range;
-  if (low > -1e300 && high < 1e300) range = number_text(low) + " to " + number_text(high) + tail;
-  else if (low > -1e300) range = "at least " + number_text(low) + tail;
-  else if (high < 1e300) range = "at most " + number_text(high) + tail;
-  else range = "any finite number" + (unit.empty() ? "" : " of " + unit);
+  if (low > -1e300 && high < 1e300)
+    range = number_text(low) + " to " + number_text(high) + tail;
+  else if (low > -1e300)
+    range = "at least " + number_text(low) + tail;
+  else if (high < 1e300)
+    range = "at most " + number_text(high) + tail;
+  else
+    range = "any finite number" + (unit.empty() ? "" : " of " + unit);
   auto check = [low, high, range](const std::string& text) -> std::string {
     const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
     const char* end = text.data() + text.size();
@@ -29,7 +33,8 @@ Check finite_in(double low, double high, const std::string& unit) {
     const auto [stop, failure] = std::from_chars(begin, end, value);
     if (failure != std::errc() || stop != end || !std::isfinite(value))
       return "'" + text + "' is not a plain finite number (expected " + range + ")";
-    if (value < low || value > high) return text + " is out of range (expected " + range + ")";
+    if (value < low || value > high)
+      return text + " is out of range (expected " + range + ")";
     return {};
   };
   return {"finite_in", range, check};
@@ -38,7 +43,8 @@ Check finite_in(double low, double high, const std::string& unit) {
 Check input_file() {
   auto check = [](const std::string& path) -> std::string {
     struct stat info {};
-    if (path == "-") return {};
+    if (path == "-")
+      return {};
     if (stat(path.c_str(), &info) != 0)
       throw input_error("file.not-found"_id, path, "", "no such file", "check the path");
     if (S_ISDIR(info.st_mode))
@@ -58,7 +64,8 @@ Check output_file() {
 
 Check document_file() {
   auto check = [](const std::string& path) -> std::string {
-    if (path.empty()) return "an empty file name";
+    if (path.empty())
+      return "an empty file name";
     if (path == "-")
       return "the document has a mesh beside it and cannot go to standard output; name a file";
     if (path.ends_with(".obj"))
@@ -72,8 +79,10 @@ Check document_file() {
 
 Check document_or_mesh_file() {
   auto check = [](const std::string& path) -> std::string {
-    if (path.empty()) return "an empty file name";
-    if (path == "-") return "a mesh cannot go to standard output; name a file";
+    if (path.empty())
+      return "an empty file name";
+    if (path == "-")
+      return "a mesh cannot go to standard output; name a file";
     return "";
   };
   return {"output_file", "FILE", check};
@@ -81,11 +90,13 @@ Check document_or_mesh_file() {
 
 Check one_of(const std::vector<std::string>& words) {
   std::string joined;
-  for (const std::string& word : words) joined += (joined.empty() ? "" : "|") + word;
+  for (const std::string& word : words)
+    joined += (joined.empty() ? "" : "|") + word;
   auto check = [words](const std::string& text) -> std::string {
     std::string list;
     for (const std::string& word : words) {
-      if (word == text) return {};
+      if (word == text)
+        return {};
       list += (list.empty() ? "" : ", ") + word;
     }
     return "'" + text + "' is not one of " + list + did_you_mean(text, words);
@@ -94,7 +105,8 @@ Check one_of(const std::vector<std::string>& words) {
 }
 
 void refuse_together(const Given& one, std::initializer_list<Given> others) {
-  if (!one.second) return;
+  if (!one.second)
+    return;
   for (const auto& [name, given] : others)
     if (given)
       throw Error(ErrorKind::USAGE, "option.conflict"_id, "", one.first,

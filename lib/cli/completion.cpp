@@ -5,21 +5,25 @@ namespace sloper::cli {
 
 static std::string join(const std::vector<std::string>& words) {
   std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
+  for (const std::string& word : words)
+    out += (out.empty() ? "" : " ") + word;
   return out;
 }
 
 static std::vector<std::string> spellings(const OptionRow& row) {
   std::vector<std::string> out;
-  for (const std::string& s : row.shorts) out.push_back("-" + s);
-  for (const std::string& l : row.longs) out.push_back("--" + l);
+  for (const std::string& s : row.shorts)
+    out.push_back("-" + s);
+  for (const std::string& l : row.longs)
+    out.push_back("--" + l);
   return out;
 }
 
 static std::string bash(const ToolDescription& tool) {
   std::string function = "_" + tool.name;
   for (char& c : function)
-    if (c == '-') c = '_';
+    if (c == '-')
+      c = '_';
   std::string out =
       "# bash completion for " + tool.name + "\n" + function +
       "() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n  "
@@ -29,7 +33,8 @@ static std::string bash(const ToolDescription& tool) {
     const std::vector<std::string> names = spellings(row);
     for (const std::string& name : names) {
       all += (all.empty() ? "" : " ") + name;
-      if (row.value.empty()) continue;
+      if (row.value.empty())
+        continue;
       if (row.choices.empty())
         (row.is_file ? files : plain) += ((row.is_file ? files : plain).empty() ? "" : "|") + name;
       else
@@ -39,7 +44,8 @@ static std::string bash(const ToolDescription& tool) {
   }
   if (!files.empty())
     out += "    " + files + ") mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return ;;\n";
-  if (!plain.empty()) out += "    " + plain + ") return ;;\n";
+  if (!plain.empty())
+    out += "    " + plain + ") return ;;\n";
   out += "  esac\n  if [[ $word == -* ]]; then mapfile -t COMPREPLY < <(compgen -W '" + all +
          "' -- \"$word\")\n";
   return out +
@@ -51,8 +57,10 @@ static std::string bash(const ToolDescription& tool) {
 static std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
-    if (c == '\'') out += "'\\''";
-    else out += c;
+    if (c == '\'')
+      out += "'\\''";
+    else
+      out += c;
   }
   return out + "'";
 }
@@ -61,17 +69,22 @@ static std::string quoted(const std::string& text) {
 static std::string zsh_text(const std::string& description) {
   std::string out;
   for (const char c : description) {
-    if (c == '[') out += "(";
-    else if (c == ']') out += ")";
-    else if (c == ':') out += "\\:";
-    else out += c;
+    if (c == '[')
+      out += "(";
+    else if (c == ']')
+      out += ")";
+    else if (c == ':')
+      out += "\\:";
+    else
+      out += c;
   }
   return out;
 }
 
 /// How zsh completes the value of an option.
 static std::string zsh_action(const OptionRow& row) {
-  if (!row.choices.empty()) return std::string("(").append(join(row.choices)).append(")");
+  if (!row.choices.empty())
+    return std::string("(").append(join(row.choices)).append(")");
   const bool file = row.is_file || !row.operand.empty();
   return file ? "_files" : " ";
 }
@@ -80,7 +93,8 @@ static std::string zsh(const ToolDescription& tool) {
   std::string out = "#compdef " + tool.name + "\n_arguments -s -S";
   const std::string separator = " \\\n  ", all = "*:", open = "[", colon = ":";
   for (const OptionRow& row : tool.rows) {
-    if (!row.operand.empty()) out += separator + quoted(all + row.operand + ":_files");
+    if (!row.operand.empty())
+      out += separator + quoted(all + row.operand + ":_files");
     const std::string star = row.repeats ? "*" : "";
     const std::string text = zsh_text(row.description);
     std::string value;
@@ -96,7 +110,8 @@ static std::string zsh(const ToolDescription& tool) {
 static std::string fish_text(const std::string& description) {
   std::string out;
   for (const char c : description) {
-    if (c == '\'' || c == '\\') out += '\\';
+    if (c == '\'' || c == '\\')
+      out += '\\';
     out += c;
   }
   return out;
@@ -105,21 +120,29 @@ static std::string fish_text(const std::string& description) {
 static std::string fish(const ToolDescription& tool) {
   std::string out = "# fish completion for " + tool.name + "\n";
   for (const OptionRow& row : tool.rows) {
-    if (!row.operand.empty()) continue;
+    if (!row.operand.empty())
+      continue;
     out += "complete -c " + tool.name;
-    for (const std::string& s : row.shorts) out += " -s " + s;
-    for (const std::string& l : row.longs) out += " -l " + l;
-    if (!row.value.empty()) out += row.is_file ? " -r -F" : " -x";
-    if (!row.choices.empty()) out += " -a " + quoted(join(row.choices));
+    for (const std::string& s : row.shorts)
+      out += " -s " + s;
+    for (const std::string& l : row.longs)
+      out += " -l " + l;
+    if (!row.value.empty())
+      out += row.is_file ? " -r -F" : " -x";
+    if (!row.choices.empty())
+      out += " -a " + quoted(join(row.choices));
     out += " -d '" + fish_text(row.description) + "'\n";
   }
   return out;
 }
 
 std::string completion(const ToolDescription& tool, const std::string& shell) {
-  if (shell == "bash") return bash(tool);
-  if (shell == "zsh") return zsh(tool);
-  if (shell == "fish") return fish(tool);
+  if (shell == "bash")
+    return bash(tool);
+  if (shell == "zsh")
+    return zsh(tool);
+  if (shell == "fish")
+    return fish(tool);
   throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "",
               "--generate-completion: '" + shell + "' is not one of bash, zsh, fish");
 }

@@ -11,17 +11,22 @@ static Json row_json(const OptionRow& row) {
     out["operand"] = row.operand;
   } else {
     out["names"] = Json::array();
-    for (const std::string& name : row.shorts) out["names"].push_back("-" + name);
-    for (const std::string& name : row.longs) out["names"].push_back("--" + name);
+    for (const std::string& name : row.shorts)
+      out["names"].push_back("-" + name);
+    for (const std::string& name : row.longs)
+      out["names"].push_back("--" + name);
     out["value"] = row.value.empty() ? Json(nullptr) : Json(row.value);
   }
-  if (!row.choices.empty()) out["choices"] = row.choices;
-  if (!row.range.empty()) out["range"] = row.range;
+  if (!row.choices.empty())
+    out["choices"] = row.choices;
+  if (!row.range.empty())
+    out["range"] = row.range;
   out["description"] = row.description;
   out["required"] = row.required;
   out["repeats"] = row.repeats;
   out["is_file"] = row.is_file;
-  if (row.operand.empty()) out["common"] = row.group == "Common options";
+  if (row.operand.empty())
+    out["common"] = row.group == "Common options";
   return out;
 }
 

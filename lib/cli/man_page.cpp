@@ -8,27 +8,35 @@ namespace sloper::cli {
 static std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '\\') out += "\\e";
-    else if (c == '-') out += "\\-";
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
     else if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n'))
       out += std::string("\\&") + c;
-    else out += c;
+    else
+      out += c;
   }
   return out;
 }
 
 static std::string man_row(const OptionRow& row) {
   std::string head;
-  if (!row.operand.empty()) head = "\\fI" + roff(row.operand) + "\\fR";
+  if (!row.operand.empty())
+    head = "\\fI" + roff(row.operand) + "\\fR";
   for (const std::string& s : row.shorts)
     head += (head.empty() ? "" : ", ") + ("\\fB\\-" + roff(s)) + "\\fR";
   for (const std::string& l : row.longs)
     head += (head.empty() ? "" : ", ") + ("\\fB\\-\\-" + roff(l)) + "\\fR";
-  if (row.operand.empty() && !row.value.empty()) head += " \\fI" + roff(row.value) + "\\fR";
+  if (row.operand.empty() && !row.value.empty())
+    head += " \\fI" + roff(row.value) + "\\fR";
   std::string text = row.description;
-  if (!row.range.empty()) text += " [" + row.range + "]";
-  if (row.required) text += " (required)";
-  if (row.repeats && row.operand.empty()) text += " (may be repeated)";
+  if (!row.range.empty())
+    text += " [" + row.range + "]";
+  if (row.required)
+    text += " (required)";
+  if (row.repeats && row.operand.empty())
+    text += " (may be repeated)";
   return ".TP\n" + head + "\n" + roff(text) + "\n";
 }
 
@@ -38,8 +46,10 @@ std::string man_page(const ToolDescription& tool) {
   out += ".SH NAME\n" + name + " \\- " + roff(tool.summary) + "\n";
   out += ".SH SYNOPSIS\n.B " + name + "\n" + roff(tool.usage().substr(tool.name.size() + 1)) + "\n";
   out += ".SH DESCRIPTION\n" + roff(tool.summary) + ".\n";
-  if (!tool.reads.empty()) out += ".PP\nReads " + roff(tool.reads) + ".\n";
-  if (!tool.writes.empty()) out += ".PP\nWrites " + roff(tool.writes) + ".\n";
+  if (!tool.reads.empty())
+    out += ".PP\nReads " + roff(tool.reads) + ".\n";
+  if (!tool.writes.empty())
+    out += ".PP\nWrites " + roff(tool.writes) + ".\n";
   out += ".PP\nOperands are inputs, outputs are named. A single JSON document may be read from or "
          "written to a stream, named \\-.\n"
          "Outputs are written to a temporary file and renamed, so that a failed run never touches "
@@ -59,7 +69,8 @@ std::string man_page(const ToolDescription& tool) {
          "stand at y = 0.\n";
   out += ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nno colours when set and not empty\n.TP\n.B TERM\nno "
          "progress line and no colours when \"dumb\"\n";
-  if (!tool.examples.empty()) out += ".SH EXAMPLES\n";
+  if (!tool.examples.empty())
+    out += ".SH EXAMPLES\n";
   for (const Example& example : tool.examples)
     out += ".PP\n" + roff(example.what) + ":\n.PP\n.nf\n.RS\n" + roff(example.command_line) +
            "\n.RE\n.fi\n";

@@ -5,11 +5,15 @@
 namespace sloper::cli {
 
 std::string OptionRow::spelling() const {
-  if (!operand.empty()) return operand;
+  if (!operand.empty())
+    return operand;
   std::string out;
-  for (const std::string& s : shorts) out += (out.empty() ? "-" : ", -") + s;
-  for (const std::string& l : longs) out += (out.empty() ? "--" : ", --") + l;
-  if (!value.empty()) out += " " + value;
+  for (const std::string& s : shorts)
+    out += (out.empty() ? "-" : ", -") + s;
+  for (const std::string& l : longs)
+    out += (out.empty() ? "--" : ", --") + l;
+  if (!value.empty())
+    out += " " + value;
   return out;
 }
 
@@ -22,7 +26,8 @@ std::string ToolDescription::usage() const {
           .append(" ")
           .append(row.value);
   for (const OptionRow& row : rows)
-    if (!row.operand.empty()) out += row.required ? " " + row.operand : " [" + row.operand + "]";
+    if (!row.operand.empty())
+      out += row.required ? " " + row.operand : " [" + row.operand + "]";
   return out;
 }
 
@@ -40,7 +45,8 @@ const std::vector<std::pair<int, std::string>>& exit_codes() {
 }
 
 std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  for (char& c : text)
+    c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   return text;
 }
 

@@ -27,7 +27,9 @@ Option& Option::show_default() {
   return *this;
 }
 
-bool Option::given() const { return m_option->count() > 0; }
+bool Option::given() const {
+  return m_option->count() > 0;
+}
 
 /// The description of a validator by name, empty when the option has no such validator.
 static std::string validator_text(CLI::Option& option, const std::string& name) {
@@ -48,7 +50,8 @@ static OptionRow row_of(CLI::Option& option) {
   row.repeats = option.get_items_expected_max() > 1;
   if (option.get_positional()) {
     row.operand = upper(option.get_name(true));
-    if (option.get_items_expected_max() > 1) row.operand += "...";
+    if (option.get_items_expected_max() > 1)
+      row.operand += "...";
   }
   if (option.get_items_expected_max() > 0) {
     const std::string type = option.get_type_name();
@@ -57,9 +60,12 @@ static OptionRow row_of(CLI::Option& option) {
     row.range = validator_text(option, "finite_in");
     row.is_file = row.value == "FILE" || !validator_text(option, "input_file").empty() ||
                   !validator_text(option, "output_file").empty();
-    if (row.is_file && row.value == "TEXT") row.value = "FILE";
-    if (!row.choices.empty() && row.value == "TEXT") row.value = validator_text(option, "one_of");
-    if (row.value == "FLOAT" || row.value == "INT" || row.value == "UINT") row.value = "N";
+    if (row.is_file && row.value == "TEXT")
+      row.value = "FILE";
+    if (!row.choices.empty() && row.value == "TEXT")
+      row.value = validator_text(option, "one_of");
+    if (row.value == "FLOAT" || row.value == "INT" || row.value == "UINT")
+      row.value = "N";
     if (row.value == "N" && !row.range.empty()) { // the unit says more: --edge-length M
       const std::string unit = row.range.substr(row.range.rfind(' ') + 1);
       if (unit.size() <= 3 && unit.find_first_of("0123456789") == std::string::npos)

@@ -109,9 +109,15 @@ Option Tool::option(const std::string& names, int& value, const std::string& wha
 Option Tool::flag(const std::string& names, bool& value, const std::string& what) {
   return Option(m_impl->app.add_flag(names, value, what));
 }
-Reporter& Tool::reporter() { return m_impl->reporter; }
-void Tool::tell(const std::string& line) { m_impl->reporter.tell(line); }
-const std::string& Tool::name() const { return m_impl->name; }
+Reporter& Tool::reporter() {
+  return m_impl->reporter;
+}
+void Tool::tell(const std::string& line) {
+  m_impl->reporter.tell(line);
+}
+const std::string& Tool::name() const {
+  return m_impl->name;
+}
 void Tool::example(const std::string& command_line, const std::string& what) {
   m_impl->examples.push_back({command_line, what});
 }
@@ -127,7 +133,8 @@ static Error usage_error(MessageId id, const std::string& fact, const std::strin
 static Error unknown_option(const CLI::App& app, const std::string& given) {
   std::vector<std::string> known;
   for (const OptionRow& row : option_rows(app))
-    for (const std::string& l : row.longs) known.push_back("--" + l);
+    for (const std::string& l : row.longs)
+      known.push_back("--" + l);
   return usage_error("option.unknown"_id,
                      "unknown option " + given +
                          (given.rfind("--", 0) == 0 ? did_you_mean(given, known, "") : ""));
@@ -149,32 +156,45 @@ static Request check_words(const CLI::App& app, const std::vector<std::string>& 
   Request request;
   auto takes_value = [](const CLI::Option* option) { return option->get_items_expected_max() > 0; };
   auto note = [&](const CLI::Option* option, const std::string& value) {
-    if (option->get_lnames().empty()) return;
+    if (option->get_lnames().empty())
+      return;
     const std::string& name = option->get_lnames().front();
-    if (name == "messages") reporter.as_json = value == "json";
-    if (name == "verbose") reporter.verbose = true;
-    if (!request.option.empty()) return;
+    if (name == "messages")
+      reporter.as_json = value == "json";
+    if (name == "verbose")
+      reporter.verbose = true;
+    if (!request.option.empty())
+      return;
     for (const char* special :
          {"help", "version", "json-usage", "generate-man", "generate-completion"})
-      if (name == special) request = {name, value};
+      if (name == special)
+        request = {name, value};
   };
   std::optional<Error> failure;
   auto fail = [&](const Error& error) {
-    if (!failure) failure = error;
+    if (!failure)
+      failure = error;
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    if (word == "--") break;
-    if (word.size() < 2 || word[0] != '-') continue;
+    if (word == "--")
+      break;
+    if (word.size() < 2 || word[0] != '-')
+      continue;
     if (word[1] == '-') {
       const std::size_t equals = word.find('=');
       const std::string name = word.substr(0, equals);
       const CLI::Option* option = app.get_option_no_throw(name);
-      if (!option) fail(unknown_option(app, name));
-      else if (!takes_value(option)) note(option, "");
-      else if (equals != std::string::npos) note(option, word.substr(equals + 1));
-      else if (++i < words.size()) note(option, words[i]);
-      else fail(usage_error("option.needs-value"_id, name + " needs a value"));
+      if (!option)
+        fail(unknown_option(app, name));
+      else if (!takes_value(option))
+        note(option, "");
+      else if (equals != std::string::npos)
+        note(option, word.substr(equals + 1));
+      else if (++i < words.size())
+        note(option, words[i]);
+      else
+        fail(usage_error("option.needs-value"_id, name + " needs a value"));
       continue;
     }
     for (std::size_t k = 1; k < word.size(); ++k) {
@@ -185,13 +205,15 @@ static Request check_words(const CLI::App& app, const std::vector<std::string>& 
         break;
       }
       note(option, "");
-      if (!takes_value(option)) continue;
+      if (!takes_value(option))
+        continue;
       if (k + 1 == word.size() && ++i == words.size())
         fail(usage_error("option.needs-value"_id, name + " needs a value"));
       break;
     }
   }
-  if (request.option.empty() && failure) throw *failure;
+  if (request.option.empty() && failure)
+    throw *failure;
   return request;
 }
 
@@ -221,7 +243,8 @@ static bool has_validator(CLI::Option* option, const std::string& name) {
 
 static std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
+  if (slash == std::string::npos)
+    return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
@@ -231,9 +254,11 @@ static void check_outputs(CLI::App& app) {
     const auto& longs = option->get_lnames();
     const bool output = has_validator(option, "output_file") ||
                         std::find(longs.begin(), longs.end(), "output") != longs.end();
-    if (!output) continue;
+    if (!output)
+      continue;
     for (const std::string& path : option->results()) {
-      if (path == "-") continue;
+      if (path == "-")
+        continue;
       struct stat info {};
       if (stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
         throw Error(ErrorKind::OUTPUT, "file.is-folder"_id, path, "", "is a folder, not a file",
@@ -254,7 +279,8 @@ static void check_outputs(CLI::App& app) {
 static std::vector<std::filesystem::path> files_of(CLI::Option* option,
                                                    const std::string& validator) {
   std::vector<std::filesystem::path> files;
-  if (!has_validator(option, validator)) return files;
+  if (!has_validator(option, validator))
+    return files;
   for (const std::string& path : option->results()) {
     std::error_code absent;
     if (path == "-" ||
@@ -287,7 +313,8 @@ static void spare_files(CLI::App& app) {
           return other->get_name(other->get_positional()) == names.first &&
                  writing->get_name() == names.second;
         };
-        if (std::any_of(std::begin(GOES_ON), std::end(GOES_ON), goes_on)) continue;
+        if (std::any_of(std::begin(GOES_ON), std::end(GOES_ON), goes_on))
+          continue;
         for (const std::filesystem::path& read : files_of(other, "input_file"))
           if (same(written, read))
             throw Error(
@@ -295,7 +322,8 @@ static void spare_files(CLI::App& app) {
                 "would be written over what " + other->get_name() + " reads" +
                     (written.extension() == ".obj" ? " (a mesh goes beside its document)" : ""),
                 "name another output");
-        if (other == writing) continue;
+        if (other == writing)
+          continue;
         for (const std::filesystem::path& twice : files_of(other, "output_file"))
           if (same(written, twice))
             throw Error(ErrorKind::USAGE, "file.written-twice"_id, written, writing->get_name(),
@@ -306,9 +334,11 @@ static void spare_files(CLI::App& app) {
 static void report_options(CLI::App& app, Reporter& reporter) {
   for (CLI::Option* option :
        app.get_options([](const CLI::Option* o) { return !o->get_group().empty(); })) {
-    if (option->count() == 0) continue;
+    if (option->count() == 0)
+      continue;
     std::string values;
-    for (const std::string& value : option->results()) values += " " + value;
+    for (const std::string& value : option->results())
+      values += " " + value;
     reporter.info("option " + option->get_name() + values);
   }
   reporter.info("threads: " + std::to_string(thread_count()));
@@ -328,16 +358,22 @@ static void report_cost(Reporter& reporter, double wall) {
 
 static std::string version_text(const ToolDescription& tool) {
   std::string out = tool.name + " " + VERSION + "\n";
-  if (!tool.reads.empty()) out += "reads: " + tool.reads + "\n";
-  if (!tool.writes.empty()) out += "writes: " + tool.writes + "\n";
+  if (!tool.reads.empty())
+    out += "reads: " + tool.reads + "\n";
+  if (!tool.writes.empty())
+    out += "writes: " + tool.writes + "\n";
   return out + "Sloper, Apache License 2.0\n";
 }
 
 static std::string answer_request(const Request& request, const ToolDescription& tool) {
-  if (request.option == "help") return help_text(tool);
-  if (request.option == "version") return version_text(tool);
-  if (request.option == "json-usage") return json_usage(tool);
-  if (request.option == "generate-man") return man_page(tool);
+  if (request.option == "help")
+    return help_text(tool);
+  if (request.option == "version")
+    return version_text(tool);
+  if (request.option == "json-usage")
+    return json_usage(tool);
+  if (request.option == "generate-man")
+    return man_page(tool);
   return completion(tool, request.value);
 }
 
@@ -367,7 +403,8 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words,
     app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // CLI11 wants them reversed
   } catch (const CLI::ExtrasError&) {
     std::string extra;
-    for (const std::string& word : app.remaining()) extra += (extra.empty() ? "" : ", ") + word;
+    for (const std::string& word : app.remaining())
+      extra += (extra.empty() ? "" : ", ") + word;
     throw usage_error("option.unexpected-argument"_id, "unexpected argument " + extra,
                       example_of(examples));
   } catch (const CLI::ParseError& error) {
@@ -387,7 +424,8 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words,
 /// What was printed must have gone out: a full disk is told, a reader that left is no error.
 static void finish_output() {
   std::cout.flush();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good())
+    return;
   struct stat info {};
   if (fstat(STDOUT_FILENO, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode)))
     return;
@@ -417,8 +455,10 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
     auto parsed = [&m] {
       m.reporter.show_progress = !m.no_progress;
       int threads = m.threads;
-      if (threads < 0) threads = std::min(available_processors(), MOST_DEFAULT_THREADS);
-      if (m.threads == 0) threads = available_processors();
+      if (threads < 0)
+        threads = std::min(available_processors(), MOST_DEFAULT_THREADS);
+      if (m.threads == 0)
+        threads = available_processors();
       set_thread_count(threads);
     };
     const int code = parse_and_run(m.app, words, m.examples, m.reporter, parsed, body);

@@ -14,7 +14,9 @@ namespace sloper::cli {
 static volatile std::sig_atomic_t g_stop = 0; // a signal handler can reach nothing else
 
 extern "C" {
-static void on_stop_signal(int) { g_stop = 1; }
+static void on_stop_signal(int) {
+  g_stop = 1;
+}
 }
 
 void install_signal_handlers() {
@@ -44,10 +46,13 @@ ToolReporter::ToolReporter(const std::string& tool_name) : m_tool(tool_name) {
   m_color = m_terminal && !set_in_environment("NO_COLOR");
 }
 
-ToolReporter::~ToolReporter() { clear_line(); }
+ToolReporter::~ToolReporter() {
+  clear_line();
+}
 
 void ToolReporter::clear_line() {
-  if (m_line_shown) std::fputs("\r\033[K", stderr);
+  if (m_line_shown)
+    std::fputs("\r\033[K", stderr);
   m_line_shown = false;
 }
 
@@ -70,17 +75,22 @@ std::string ToolReporter::with_id(const std::string& text, std::string_view id) 
 }
 
 void ToolReporter::info(const std::string& text) {
-  if (!verbose || quiet) return;
-  if (as_json) print_json({{"tool", m_tool}, {"level", "info"}, {"text", text}});
-  else line(text, "");
+  if (!verbose || quiet)
+    return;
+  if (as_json)
+    print_json({{"tool", m_tool}, {"level", "info"}, {"text", text}});
+  else
+    line(text, "");
 }
 
 void ToolReporter::warning(const Message& message) {
-  if (quiet) return;
+  if (quiet)
+    return;
   if (as_json)
     print_json(
         {{"tool", m_tool}, {"level", "warning"}, {"id", message.id}, {"text", message.text}});
-  else line(with_id("warning: " + message.text, message.id), "\033[33m");
+  else
+    line(with_id("warning: " + message.text, message.id), "\033[33m");
 }
 
 void ToolReporter::error(const Error& error, const std::string& hint) {
@@ -100,16 +110,21 @@ void ToolReporter::error(const Error& error, const std::string& hint) {
     return;
   }
   line(with_id(text, error.id().text()), "\033[31m");
-  if (!hint.empty()) std::fprintf(stderr, "%s\n", hint.c_str());
+  if (!hint.empty())
+    std::fprintf(stderr, "%s\n", hint.c_str());
 }
 
 void ToolReporter::tell(const std::string& text) {
   clear_line();
-  if (as_json) print_json({{"tool", m_tool}, {"level", "info"}, {"text", text}});
-  else std::fprintf(stderr, "%s\n", text.c_str());
+  if (as_json)
+    print_json({{"tool", m_tool}, {"level", "info"}, {"text", text}});
+  else
+    std::fprintf(stderr, "%s\n", text.c_str());
 }
 
-bool ToolReporter::stop_requested() const { return g_stop != 0; }
+bool ToolReporter::stop_requested() const {
+  return g_stop != 0;
+}
 
 static constexpr double LEAST_TO_FORETELL = 0.02; // of a phase, for a guess of the time left
 
@@ -117,20 +132,25 @@ static std::string clock_text(double seconds) {
   constexpr long MINUTE = 60, HOUR = 60 * MINUTE; // s
   const long whole = std::lround(seconds), minutes = whole % HOUR / MINUTE, rest = whole % MINUTE;
   char text[32];
-  if (whole >= HOUR) std::snprintf(text, sizeof text, "%ld h %02ld min", whole / HOUR, minutes);
-  else if (whole >= MINUTE) std::snprintf(text, sizeof text, "%ld min %02ld s", minutes, rest);
-  else std::snprintf(text, sizeof text, "%ld s", whole);
+  if (whole >= HOUR)
+    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / HOUR, minutes);
+  else if (whole >= MINUTE)
+    std::snprintf(text, sizeof text, "%ld min %02ld s", minutes, rest);
+  else
+    std::snprintf(text, sizeof text, "%ld s", whole);
   return text;
 }
 
 void ToolReporter::progress(const std::string& phase, double fraction) {
-  if (quiet || !show_progress || !m_terminal || as_json) return;
+  if (quiet || !show_progress || !m_terminal || as_json)
+    return;
   const Clock::time_point now = Clock::now();
   const bool new_phase = phase != m_phase || m_phase_start == Clock::time_point{};
   if (new_phase) {
     m_phase = phase;
     m_phase_start = now;
-  } else if (now - m_last_drawn < std::chrono::milliseconds(100) && fraction < 1) return;
+  } else if (now - m_last_drawn < std::chrono::milliseconds(100) && fraction < 1)
+    return;
   m_last_drawn = now;
   std::string text = m_tool + ": " + phase;
   if (fraction >= 0) {

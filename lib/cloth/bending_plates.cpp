@@ -23,7 +23,9 @@ struct Laid {
   std::array<Vec2, 3> p;
 };
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// The triangle beyond corner `k`'s edge of `from`, unfolded about it.
 Laid unfold(const ClothMesh& mesh, const Laid& from, int k, int triangle, int corner) {
@@ -62,8 +64,10 @@ public:
     const Laid own{triangle, mesh.triangles[triangle].flat};
     std::vector<Laid> around;
     add_hinges_of(own, 1, &around);
-    if (smallest_eigenvalue() >= WELL_POSED) return;
-    for (const Laid& laid : around) add_hinges_of(laid, NEIGHBOUR_WEIGHT, nullptr);
+    if (smallest_eigenvalue() >= WELL_POSED)
+      return;
+    for (const Laid& laid : around)
+      add_hinges_of(laid, NEIGHBOUR_WEIGHT, nullptr);
   }
   const std::vector<int>& hinges() const { return m_hinge; }
   /// 3 by m: (x_uu, x_vv, sqrt(2) x_uv) from the hinges' vectors.
@@ -99,7 +103,8 @@ private:
   void add_hinges_of(const Laid& laid, double weight, std::vector<Laid>* around) {
     for (int k = 0; k < 3; ++k) {
       const int h = m_hinges[laid.triangle][k];
-      if (h < 0 || std::find(m_hinge.begin(), m_hinge.end(), h) != m_hinge.end()) continue;
+      if (h < 0 || std::find(m_hinge.begin(), m_hinge.end(), h) != m_hinge.end())
+        continue;
       const Hinge& hinge = m_mesh.hinges[h];
       const int side = hinge.triangle[0] == laid.triangle ? 0 : 1;
       const Laid beyond = unfold(m_mesh, laid, k, hinge.triangle[1 - side], hinge.corner[1 - side]);
@@ -115,8 +120,10 @@ private:
         row += hinge.coefficient[j] *
                Vec3(0.5 * d.x() * d.x(), 0.5 * d.y() * d.y(), std::sqrt(0.5) * d.x() * d.y());
       }
-      if (around) around->push_back(beyond);
-      if (!(row.norm() > 0)) continue;
+      if (around)
+        around->push_back(beyond);
+      if (!(row.norm() > 0))
+        continue;
       m_hinge.push_back(h);
       m_row.push_back(row);
       m_weight.push_back(weight);
@@ -169,7 +176,8 @@ PlateRigidity plate_rigidity(const Fabric& fabric) {
 double bias_of_strip(double warp, double weft, double strip) {
   constexpr double MOST = 1.25;
   const double twist_compliance = 4 / strip - 1 / warp - 1 / weft;
-  if (!(twist_compliance > 0)) return MOST * strip;
+  if (!(twist_compliance > 0))
+    return MOST * strip;
   return std::min(0.25 * (warp + weft) + 1 / twist_compliance, MOST * strip);
 }
 
@@ -180,7 +188,8 @@ double rigidity_along(const PlateRigidity& plate, double angle_rad) {
 }
 
 double BendingPlate::energy(double s) const {
-  if (soft_share <= 0) return 0.5 * s;
+  if (soft_share <= 0)
+    return 0.5 * s;
   return 0.5 * (1 - soft_share) * s +
          soft_share * soft_energy * (std::sqrt(1 + s / soft_energy) - 1);
 }
@@ -201,7 +210,8 @@ std::vector<BendingPlate> make_bending_plates(const ClothMesh& mesh) {
   plates.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Patch patch(mesh, hinges, static_cast<int>(t));
-    if (patch.hinges().empty()) continue;
+    if (patch.hinges().empty())
+      continue;
     const RestTriangle& triangle = mesh.triangles[t];
     const Fabric& fabric = mesh.fabrics[triangle.fabric];
     const double area = 0.5 * std::abs(cross(triangle.flat[1] - triangle.flat[0],

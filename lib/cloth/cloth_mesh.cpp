@@ -45,7 +45,8 @@ void add_hinge(ClothMesh& mesh, const EdgeUse& first, const EdgeUse& second) {
   Hinge hinge;
   hinge.particle = {first.i, first.j, s.particle[(first.corner + 2) % 3],
                     t.particle[(second.corner + 2) % 3]};
-  if (hinge.particle[2] == hinge.particle[3]) return;
+  if (hinge.particle[2] == hinge.particle[3])
+    return;
   hinge.triangle = {first.triangle, second.triangle};
   hinge.corner = {first.corner, second.corner};
   // Cotangents at the two ends of the edge, each in its own triangle's flat shape: a seam has two.
@@ -71,7 +72,8 @@ void add_hinge(ClothMesh& mesh, const EdgeUse& first, const EdgeUse& second) {
 std::vector<Triangle> ClothMesh::particle_triangles() const {
   std::vector<Triangle> out;
   out.reserve(triangles.size());
-  for (const RestTriangle& t : triangles) out.push_back(t.particle);
+  for (const RestTriangle& t : triangles)
+    out.push_back(t.particle);
   return out;
 }
 
@@ -141,7 +143,8 @@ ClothMesh make_cloth_mesh(int n_particles, std::vector<RestTriangle> triangles,
 
 double ClothMesh::mean_edge() const {
   double sum = 0;
-  for (const EdgeSpring& s : springs) sum += s.rest_length;
+  for (const EdgeSpring& s : springs)
+    sum += s.rest_length;
   return sum / static_cast<double>(springs.size());
 }
 

@@ -27,26 +27,32 @@ BodyCollider::BodyCollider(const TriangleMesh& body, int k) : m_mesh(body) {
   m_winding = std::make_shared<LazyWinding>();
   compute_normals();
   assess_sign_reliability();
-  if (m_findings.buried_triangles > 0) m_skin = TriangleTree(m_mesh.positions, skin_triangles(), k);
+  if (m_findings.buried_triangles > 0)
+    m_skin = TriangleTree(m_mesh.positions, skin_triangles(), k);
 }
 
 BodyCollider::BodyCollider(const TriangleMesh& body, const PreparedSkin& known, int k)
     : m_mesh(body), m_topology(make_topology(body.positions.size(), body.triangles)),
       m_turned(known.turned), m_findings(known.findings) {
-  for (const int f : m_turned) turn(f);
+  for (const int f : m_turned)
+    turn(f);
   assign_features();
   m_tree = TriangleTree(m_mesh.positions, m_mesh.triangles, k, known.order);
   compute_normals();
   m_trusted_face.assign(m_mesh.triangles.size(), 1);
   m_trusted_edge.assign(m_topology.edges.size(), 1);
   m_trusted_vertex.assign(m_mesh.positions.size(), 1);
-  for (const int f : known.untrusted_faces) m_trusted_face[f] = 0;
+  for (const int f : known.untrusted_faces)
+    m_trusted_face[f] = 0;
   for (const int side : known.untrusted_edges)
     m_trusted_edge[m_topology.triangle_edges[side / 3][side % 3]] = 0;
-  for (const int v : known.untrusted_vertices) m_trusted_vertex[v] = 0;
-  if (known.buried.empty()) return;
+  for (const int v : known.untrusted_vertices)
+    m_trusted_vertex[v] = 0;
+  if (known.buried.empty())
+    return;
   std::vector<char> buried(m_mesh.triangles.size(), 0);
-  for (const int f : known.buried) buried[f] = 1;
+  for (const int f : known.buried)
+    buried[f] = 1;
   number_skin(buried);
   m_skin = TriangleTree(m_mesh.positions, skin_triangles(), k, known.skin_order);
 }
@@ -57,35 +63,41 @@ PreparedSkin BodyCollider::prepared() const {
   found.findings = m_findings;
   found.order = m_tree.triangle_order();
   found.skin_order = m_skin.triangle_order();
-  for (int f = 0; f < static_cast<int>(m_skin_of.size()); ++f)
-    if (m_skin_of[f] < 0) found.buried.push_back(f);
-  for (int f = 0; f < static_cast<int>(m_mesh.triangles.size()); ++f) {
-    if (!m_trusted_face[f]) found.untrusted_faces.push_back(f);
+  for (int f = 0; f < std::ssize(m_skin_of); ++f)
+    if (m_skin_of[f] < 0)
+      found.buried.push_back(f);
+  for (int f = 0; f < std::ssize(m_mesh.triangles); ++f) {
+    if (!m_trusted_face[f])
+      found.untrusted_faces.push_back(f);
     const std::array<int, 3>& sides = m_topology.triangle_edges[f];
     for (int k = 0; k < 3; ++k) {
       const int edge = sides[k];
-      if (m_trusted_edge[edge] || m_topology.triangles_of_edge(edge)[0] != f) continue;
+      if (m_trusted_edge[edge] || m_topology.triangles_of_edge(edge)[0] != f)
+        continue;
       const auto before = sides.begin() + k; // a triangle of no width may have one edge twice
       if (std::find(sides.begin(), before, edge) == before)
         found.untrusted_edges.push_back(3 * f + k);
     }
   }
-  for (int v = 0; v < static_cast<int>(m_trusted_vertex.size()); ++v)
-    if (!m_trusted_vertex[v]) found.untrusted_vertices.push_back(v);
+  for (int v = 0; v < std::ssize(m_trusted_vertex); ++v)
+    if (!m_trusted_vertex[v])
+      found.untrusted_vertices.push_back(v);
   return found;
 }
 
 std::vector<Triangle> BodyCollider::skin_triangles() const {
   std::vector<Triangle> kept;
   kept.reserve(m_skin_triangle.size());
-  for (const int f : m_skin_triangle) kept.push_back(m_mesh.triangles[f]);
+  for (const int f : m_skin_triangle)
+    kept.push_back(m_mesh.triangles[f]);
   return kept;
 }
 
 void BodyCollider::set_positions(const std::vector<Vec3>& positions) {
   m_mesh.positions = positions;
   m_tree.refit(positions);
-  if (m_skin.n_slots() > 0) m_skin.refit(positions);
+  if (m_skin.n_slots() > 0)
+    m_skin.refit(positions);
   m_winding = std::make_shared<LazyWinding>();
   compute_normals();
 }
@@ -128,9 +140,11 @@ void BodyCollider::assign_features() {
   parallel_for(m_mesh.triangles.size(), GRAIN_OF_NORMALS, [&](std::size_t begin, std::size_t end) {
     for (auto f = static_cast<int>(begin); f < static_cast<int>(end); ++f)
       for (int k = 0; k < 3; ++k) {
-        if (m_topology.triangles_of_vertex(m_mesh.triangles[f][k])[0] == f) m_owned[f] |= 1 << k;
+        if (m_topology.triangles_of_vertex(m_mesh.triangles[f][k])[0] == f)
+          m_owned[f] |= 1 << k;
         const auto around = m_topology.triangles_of_edge(m_topology.triangle_edges[f][k]);
-        if (around[0] == f) m_beyond[f][k] = around.size() == 2 ? around[1] : RIM;
+        if (around[0] == f)
+          m_beyond[f][k] = around.size() == 2 ? around[1] : RIM;
       }
   });
 }
@@ -144,7 +158,8 @@ void BodyCollider::find_convex_edges() {
       m_owned[f] &= OWNED_VERTICES;
       for (int k = 0; k < 3; ++k) {
         const int beyond = m_beyond[f][k];
-        if (beyond == NOT_OWNED) continue;
+        if (beyond == NOT_OWNED)
+          continue;
         // At a rim or where sheets meet there is no hollow side to rule out.
         bool convex = beyond == RIM;
         if (!convex) {
@@ -153,15 +168,18 @@ void BodyCollider::find_convex_edges() {
           const Vec3 turn = m_face_normals[f].cross(m_face_normals[beyond]);
           convex = turn.dot(along) > FLAT_SINE * along.norm();
         }
-        if (convex) m_owned[f] |= FIRST_OWNED_EDGE << k;
+        if (convex)
+          m_owned[f] |= FIRST_OWNED_EDGE << k;
       }
     }
   });
 }
 
 Vec3 BodyCollider::pseudonormal(int triangle, int feature) const {
-  if (feature < FEATURE_EDGE) return m_vertex_normals[m_mesh.triangles[triangle][feature]];
-  if (feature == FEATURE_FACE) return m_face_normals[triangle];
+  if (feature < FEATURE_EDGE)
+    return m_vertex_normals[m_mesh.triangles[triangle][feature]];
+  if (feature == FEATURE_FACE)
+    return m_face_normals[triangle];
   Vec3 sum = Vec3::Zero();
   for (int f :
        m_topology.triangles_of_edge(m_topology.triangle_edges[triangle][feature - FEATURE_EDGE]))
@@ -170,8 +188,10 @@ Vec3 BodyCollider::pseudonormal(int triangle, int feature) const {
 }
 
 bool BodyCollider::is_trusted(int triangle, int feature) const {
-  if (feature < FEATURE_EDGE) return m_trusted_vertex[m_mesh.triangles[triangle][feature]];
-  if (feature == FEATURE_FACE) return m_trusted_face[triangle];
+  if (feature < FEATURE_EDGE)
+    return m_trusted_vertex[m_mesh.triangles[triangle][feature]];
+  if (feature == FEATURE_FACE)
+    return m_trusted_face[triangle];
   return m_trusted_edge[m_topology.triangle_edges[triangle][feature - FEATURE_EDGE]];
 }
 
@@ -186,12 +206,14 @@ SignedDistance BodyCollider::signed_distance(const Vec3& p, double max_distance,
   if (m_skin_of.empty()) {
     closest = m_tree.closest_point(p, max_distance, hint_triangle);
   } else {
-    const bool known = hint_triangle >= 0 && hint_triangle < static_cast<int>(m_skin_of.size());
+    const bool known = hint_triangle >= 0 && hint_triangle < std::ssize(m_skin_of);
     closest = m_skin.closest_point(p, max_distance, known ? m_skin_of[hint_triangle] : -1);
-    if (closest.triangle >= 0) closest.triangle = m_skin_triangle[closest.triangle];
+    if (closest.triangle >= 0)
+      closest.triangle = m_skin_triangle[closest.triangle];
   }
   SignedDistance result;
-  if (closest.triangle < 0) return result;
+  if (closest.triangle < 0)
+    return result;
   result.triangle = closest.triangle;
   result.point = closest.point;
   result.barycentric = closest.barycentric;
@@ -206,8 +228,10 @@ SignedDistance BodyCollider::signed_distance(const Vec3& p, double max_distance,
       distance <= TOUCHING || (clear && is_trusted(closest.triangle, closest.feature));
   const bool inside = by_normal ? height < 0 : is_inside(p);
   result.distance = inside ? -distance : distance;
-  if (distance > TOUCHING) result.normal = away / result.distance;
-  else result.normal = pseudo.norm() > 0 ? Vec3(pseudo.normalized()) : Vec3(0, 1, 0);
+  if (distance > TOUCHING)
+    result.normal = away / result.distance;
+  else
+    result.normal = pseudo.norm() > 0 ? Vec3(pseudo.normalized()) : Vec3(0, 1, 0);
   return result;
 }
 

@@ -66,7 +66,8 @@ void BodyCollider::near_pairs(const std::vector<Vec3>& x, const std::vector<Tria
     for (int k = 0; k < 3; ++k) {
       box.add(*c[k]);
       owns_vertex[k] = topology.triangles_of_vertex(t[k])[0] == f;
-      if (owns_vertex[k]) near_vertex[k] = m_tree.dop_of(around(*c[k], *c[k], vertex_radius));
+      if (owns_vertex[k])
+        near_vertex[k] = m_tree.dop_of(around(*c[k], *c[k], vertex_radius));
       if (topology.triangles_of_edge(topology.triangle_edges[f][k])[0] == f)
         near_edge.set(k, around(*c[k], *c[(k + 1) % 3], edge_radius));
     }
@@ -84,21 +85,25 @@ void BodyCollider::near_pairs(const std::vector<Vec3>& x, const std::vector<Tria
             const int lane = std::countr_zero(static_cast<unsigned>(lanes)),
                       slot = m_tree.nodes()[node].first_slot() + lane,
                       g = m_tree.triangle_of_slot(slot);
-            if (!m_skin_of.empty() && m_skin_of[g] < 0) continue;
+            if (!m_skin_of.empty() && m_skin_of[g] < 0)
+              continue;
             const std::array<Vec3, 3>& b = m_tree.corners(slot);
             for (int k = 0; k < 3; ++k) {
-              if (!(lanes_of_vertex[k] >> lane & 1)) continue;
+              if (!(lanes_of_vertex[k] >> lane & 1))
+                continue;
               if (const double d2 = point_triangle(*c[k], b[0], b[1], b[2]).squared_distance;
                   d2 <= vertex_radius2)
                 found.vertex_face.push_back({t[k], g, std::sqrt(d2)});
             }
-            if (!(lanes_of_face >> lane & 1)) continue;
+            if (!(lanes_of_face >> lane & 1))
+              continue;
             for (int j = 0; j < 3; ++j) {
               if ((m_owned[g] & (1 << j)) && !apart(face_box, b[j]))
                 if (const double d2 = point_triangle(b[j], *c[0], *c[1], *c[2]).squared_distance;
                     d2 <= edge_radius2)
                   found.face_vertex.push_back({f, m_mesh.triangles[g][j], std::sqrt(d2)});
-              if (!(m_owned[g] & (8 << j))) continue;
+              if (!(m_owned[g] & (8 << j)))
+                continue;
               const Vec3 &b0 = b[j], &b1 = b[(j + 1) % 3];
               for (int edges = near_edge.overlapping(b0, b1); edges; edges &= edges - 1) {
                 const int k = std::countr_zero(static_cast<unsigned>(edges));
@@ -112,7 +117,8 @@ void BodyCollider::near_pairs(const std::vector<Vec3>& x, const std::vector<Tria
   };
   parallel_for(triangles.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
-      if (asked[f]) search(static_cast<int>(f), chunks[begin / SEARCH_GRAIN]);
+      if (asked[f])
+        search(static_cast<int>(f), chunks[begin / SEARCH_GRAIN]);
   });
   pairs.vertex_face.clear();
   pairs.edge_edge.clear();

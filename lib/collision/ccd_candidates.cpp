@@ -73,8 +73,10 @@ void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const M
     for (int i = 0; i < 4; ++i) {
       if (!(mask & (1 << i)) || node.child[i] == TriangleTree::EMPTY || node.slot_end[i] <= first)
         continue;
-      if (node.child[i] >= 0) stack[top++] = node.child[i];
-      else visit(-2 - node.child[i]);
+      if (node.child[i] >= 0)
+        stack[top++] = node.child[i];
+      else
+        visit(-2 - node.child[i]);
     }
   }
 }
@@ -85,7 +87,8 @@ double closing2(const std::array<int, N>& a, const std::array<int, M>& b,
                 const std::vector<Vec3>& dx) {
   double most = 0;
   for (int i : a)
-    for (int j : b) most = std::max(most, (dx[i] - dx[j]).squaredNorm());
+    for (int j : b)
+      most = std::max(most, (dx[i] - dx[j]).squaredNorm());
   return most;
 }
 
@@ -97,7 +100,8 @@ template<class Find> void collect(std::size_t n, Pairs& out, const Find& find) {
       find(static_cast<int>(i), chunks[begin / SEARCH_GRAIN]);
   });
   out.clear();
-  for (const Pairs& chunk : chunks) out.insert(out.end(), chunk.begin(), chunk.end());
+  for (const Pairs& chunk : chunks)
+    out.insert(out.end(), chunk.begin(), chunk.end());
   std::sort(out.begin(), out.end());
 }
 
@@ -107,7 +111,8 @@ void CcdCandidates::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& d
   if (m_faces.n_slots() == 0 && !m_triangles.empty()) {
     m_faces = TriangleTree(x, m_triangles);
     std::vector<Triangle> flat;
-    for (const auto& [a, b] : m_topology.edges) flat.push_back({a, b, b});
+    for (const auto& [a, b] : m_topology.edges)
+      flat.push_back({a, b, b});
     m_edges = TriangleTree(x, flat);
     m_face_motion = m_faces;
     m_edge_motion = m_edges;
@@ -125,7 +130,8 @@ void CcdCandidates::choose(const std::vector<Vec3>& dx, const std::vector<char>&
   m_chosen = may_meet;
   if (again) {
     std::vector<char> changed(dx.size());
-    for (std::size_t i = 0; i < dx.size(); ++i) changed[i] = dx[i] != m_last_dx[i];
+    for (std::size_t i = 0; i < dx.size(); ++i)
+      changed[i] = dx[i] != m_last_dx[i];
     if (std::count(changed.begin(), changed.end(), 1) <
         std::count(may_meet.begin(), may_meet.end(), 1))
       m_chosen = std::move(changed);
@@ -145,18 +151,21 @@ void CcdCandidates::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
                          const std::vector<char>& may_meet, bool again) {
   m_vertex_face.clear();
   m_edge_edge.clear();
-  if (m_triangles.empty()) return;
+  if (m_triangles.empty())
+    return;
   refit(x, dx, again);
   choose(dx, may_meet, again);
   const double share2 = SHARE * SHARE;
   collect(x.size(), m_vertex_face, [&](int v, Pairs& found) {
-    if (m_topology.triangles_of_vertex(v).empty() || (!m_chosen[v] && !m_chosen_faces[0])) return;
+    if (m_topology.triangles_of_vertex(v).empty() || (!m_chosen[v] && !m_chosen_faces[0]))
+      return;
     const std::array<int, 1> own{v};
     visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0,
                   m_chosen[v] ? nullptr : m_chosen_faces.data(), [&](int slot) {
                     const int f = m_faces.triangle_of_slot(slot);
                     const Triangle& t = m_triangles[f];
-                    if (v == t[0] || v == t[1] || v == t[2]) return;
+                    if (v == t[0] || v == t[1] || v == t[2])
+                      return;
                     if (closing2(own, t, dx) >
                         share2 * point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance)
                       found.push_back({v, f});
@@ -166,13 +175,15 @@ void CcdCandidates::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
     const int e = m_edges.triangle_of_slot(slot);
     const std::array<int, 2>& a = m_topology.edges[e];
     const bool chosen = m_chosen[a[0]] || m_chosen[a[1]];
-    if (!chosen && !m_chosen_edges[0]) return;
+    if (!chosen && !m_chosen_edges[0])
+      return;
     visit_meeting(
         m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1,
         chosen ? nullptr : m_chosen_edges.data(), [&](int other) {
           const int f = m_edges.triangle_of_slot(other);
           const std::array<int, 2>& b = m_topology.edges[f];
-          if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
+          if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1])
+            return;
           if (closing2(a, b, dx) >
               share2 * collision::edge_edge(x[a[0]], x[a[1]], x[b[0]], x[b[1]]).squared_distance)
             found.push_back({std::min(e, f), std::max(e, f)});

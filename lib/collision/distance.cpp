@@ -18,7 +18,8 @@ void try_edge(const Vec3& p, const Vec3* const corner[3], int k, PointTriangle& 
   const int next = k == 2 ? 0 : k + 1;
   const Vec3 &a = *corner[k], &b = *corner[next];
   const PointEdge e = point_edge(p, a, b);
-  if (!(e.squared_distance < best.squared_distance)) return;
+  if (!(e.squared_distance < best.squared_distance))
+    return;
   best.squared_distance = e.squared_distance;
   best.barycentric = Vec3::Zero();
   best.barycentric[k] = 1 - e.t;
@@ -40,8 +41,10 @@ void try_edge(const Vec3& p, const Vec3* const corner[3], int k, PointTriangle& 
 PointEdge point_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a, ap = p - a;
   const double length2 = ab.squaredNorm(), along = ap.dot(ab);
-  if (!(along > 0) || length2 <= 0) return {ap.squaredNorm(), 0};
-  if (along >= length2) return {(p - b).squaredNorm(), 1};
+  if (!(along > 0) || length2 <= 0)
+    return {ap.squaredNorm(), 0};
+  if (along >= length2)
+    return {(p - b).squaredNorm(), 1};
   const double t = along / length2;
   return {(ap - t * ab).squaredNorm(), t};
 }
@@ -74,7 +77,8 @@ PointTriangle point_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const 
     }
   }
   for (int k = 0; k < 3; ++k)
-    if (seen[k]) try_edge(p, corner, k, best);
+    if (seen[k])
+      try_edge(p, corner, k, best);
   return best;
 }
 
@@ -98,9 +102,12 @@ EdgeEdge edge_edge(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b
   const PointEdge p0 = point_edge(a0, b0, b1), p1 = point_edge(a1, b0, b1),
                   q0 = point_edge(b0, a0, a1), q1 = point_edge(b1, a0, a1);
   EdgeEdge best{p0.squared_distance, 0, p0.t};
-  if (p1.squared_distance < best.squared_distance) best = {p1.squared_distance, 1, p1.t};
-  if (q0.squared_distance < best.squared_distance) best = {q0.squared_distance, q0.t, 0};
-  if (q1.squared_distance < best.squared_distance) best = {q1.squared_distance, q1.t, 1};
+  if (p1.squared_distance < best.squared_distance)
+    best = {p1.squared_distance, 1, p1.t};
+  if (q0.squared_distance < best.squared_distance)
+    best = {q0.squared_distance, q0.t, 0};
+  if (q1.squared_distance < best.squared_distance)
+    best = {q1.squared_distance, q1.t, 1};
   return best;
 }
 

@@ -25,7 +25,8 @@ bool set_side(FaceContact& contact, const Vec3& cloth_point, const Vec3& skin_no
     contact.distance = 0;
     return skin_normal.squaredNorm() > 0;
   }
-  if (std::abs(height) < CONE * length) return false;
+  if (std::abs(height) < CONE * length)
+    return false;
   contact.distance = height < 0 ? -length : length;
   contact.normal = away / contact.distance;
   return true;
@@ -60,7 +61,8 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
     const Vec3* c[3] = {&positions[t[0]], &positions[t[1]], &positions[t[2]]};
     std::optional<FaceContact> face, edges[3];
     Box3 box, edge_box[3];
-    for (const Vec3* p : c) box.add(*p);
+    for (const Vec3* p : c)
+      box.add(*p);
     box.low.array() -= radius;
     box.high.array() += radius;
     for (int k = 0; k < 3; ++k) {
@@ -70,7 +72,8 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
       edge_box[k].high = c[k]->cwiseMax(*c[(k + 1) % 3]).array() + radius;
     }
     m_tree.visit_overlaps(box, [&](int g) {
-      if (m_owned[g] == 0 || (!m_skin_of.empty() && m_skin_of[g] < 0)) return;
+      if (m_owned[g] == 0 || (!m_skin_of.empty() && m_skin_of[g] < 0))
+        return;
       const Triangle& body = m_mesh.triangles[g];
       for (int j = 0; j < 3; ++j) {
         const Vec3 &b0 = m_mesh.positions[body[j]], &b1 = m_mesh.positions[body[(j + 1) % 3]];
@@ -81,10 +84,12 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
             FaceContact contact{ContactKind::FACE, f,  d.barycentric, g,
                                 Vec3::Zero(),      b0, Vec3::Zero(),  0};
             contact.body_barycentric[j] = 1;
-            if (set_side(contact, d.point, m_vertex_normals[body[j]])) keep_deepest(face, contact);
+            if (set_side(contact, d.point, m_vertex_normals[body[j]]))
+              keep_deepest(face, contact);
           }
         }
-        if (!(m_owned[g] & (8 << j))) continue;
+        if (!(m_owned[g] & (8 << j)))
+          continue;
         const Vec3 low = b0.cwiseMin(b1), high = b0.cwiseMax(b1);
         for (int k = 0; k < 3; ++k) {
           if ((low.array() > edge_box[k].high.array()).any() ||
@@ -96,7 +101,8 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
             continue;
           const Vec3 normal = pseudonormal(g, FEATURE_EDGE + j);
           const double length = normal.norm();
-          if (!(length > 0)) continue;
+          if (!(length > 0))
+            continue;
           FaceContact contact{
               ContactKind::EDGE, f, Vec3::Zero(), g, Vec3::Zero(), b0 + d.t * (b1 - b0),
               Vec3::Zero(),      0};
@@ -109,9 +115,11 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
         }
       }
     });
-    if (face) found.face.push_back(*face);
+    if (face)
+      found.face.push_back(*face);
     for (const auto& edge : edges)
-      if (edge) found.edge.push_back(*edge);
+      if (edge)
+        found.edge.push_back(*edge);
   };
   parallel_for(triangles.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)

@@ -12,7 +12,8 @@ namespace {
 bool share_vertex(const Triangle& a, const Triangle& b) {
   for (int u : a)
     for (int v : b)
-      if (u == v) return true;
+      if (u == v)
+        return true;
   return false;
 }
 
@@ -53,9 +54,11 @@ std::vector<EdgeFaceIntersection> edge_face_intersections(const std::vector<Vec3
           const std::size_t first = out.size();
           tree.visit_overlaps(box, [&](int f) {
             const Triangle& t = triangles[f];
-            if (t[0] == i || t[1] == i || t[2] == i || t[0] == j || t[1] == j || t[2] == j) return;
+            if (t[0] == i || t[1] == i || t[2] == i || t[0] == j || t[1] == j || t[2] == j)
+              return;
             const std::array<Vec3, 3> corner = {x[t[0]], x[t[1]], x[t[2]]};
-            if (!segment_crosses_triangle(p, q, corner)) return;
+            if (!segment_crosses_triangle(p, q, corner))
+              return;
             const Vec3 n = area_normal(corner[0], corner[1], corner[2]);
             const double hp = n.dot(p - corner[0]), hq = n.dot(q - corner[0]);
             const double s = hp == hq ? 0.5 : std::clamp(hp / (hp - hq), 0.0, 1.0);
@@ -77,12 +80,14 @@ std::vector<int> triangles_through(const std::vector<Vec3>& positions,
       const Triangle& t = triangles[f];
       const std::array<Vec3, 3> corner = {positions[t[0]], positions[t[1]], positions[t[2]]};
       Box3 box;
-      for (const Vec3& p : corner) box.add(p);
+      for (const Vec3& p : corner)
+        box.add(p);
       bool hit = false; // the traversal cannot be cut short, but the costly test can
       tree.visit_slots(tree.dop_of(box), 0, [&](int slot) {
         hit = hit || triangles_intersect(corner, tree.corners(slot));
       });
-      if (hit) out.push_back(static_cast<int>(f));
+      if (hit)
+        out.push_back(static_cast<int>(f));
     }
   });
 }

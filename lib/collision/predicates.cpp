@@ -15,10 +15,12 @@ template<int CAPACITY> struct Expansion {
   double term[CAPACITY];
   int size = 0;
   void push(double x) {
-    if (x != 0) term[size++] = x;
+    if (x != 0)
+      term[size++] = x;
   }
   int sign() const {
-    if (size == 0) return 0;
+    if (size == 0)
+      return 0;
     return term[size - 1] > 0 ? 1 : -1;
   }
 };
@@ -52,10 +54,12 @@ template<int N> void add(Expansion<N>& e, double b) {
   for (int i = 0; i < e.size; ++i) {
     double sum, error;
     two_sum(q, e.term[i], sum, error);
-    if (error != 0) e.term[size++] = error;
+    if (error != 0)
+      e.term[size++] = error;
     q = sum;
   }
-  if (q != 0) e.term[size++] = q;
+  if (q != 0)
+    e.term[size++] = q;
   e.size = size;
 }
 
@@ -72,14 +76,16 @@ template<int N, int M> Expansion<2 * N * M> product(const Expansion<N>& a, const
 }
 
 template<int N, int M> void accumulate(Expansion<N>& total, const Expansion<M>& e, double sign) {
-  for (int i = 0; i < e.size; ++i) add(total, sign * e.term[i]);
+  for (int i = 0; i < e.size; ++i)
+    add(total, sign * e.term[i]);
 }
 
 int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   Expansion<2> m[3][3];
   const Vec3* row[3] = {&a, &b, &c};
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m[i][j] = difference((*row[i])[j], d[j]);
+    for (int j = 0; j < 3; ++j)
+      m[i][j] = difference((*row[i])[j], d[j]);
   Expansion<192> total;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -98,7 +104,8 @@ int exact_area(double ax, double ay, double bx, double by, double cx, double cy)
 
 bool is_flat(const std::array<Vec3, 3>& t) {
   for (int drop = 0; drop < 3; ++drop)
-    if (projected_orientation(t[0], t[1], t[2], drop) != 0) return false;
+    if (projected_orientation(t[0], t[1], t[2], drop) != 0)
+      return false;
   return true;
 }
 
@@ -106,8 +113,10 @@ bool is_flat(const std::array<Vec3, 3>& t) {
 bool segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, int drop) {
   const int o1 = projected_orientation(p, q, r, drop), o2 = projected_orientation(p, q, s, drop);
   const int o3 = projected_orientation(r, s, p, drop), o4 = projected_orientation(r, s, q, drop);
-  if (o1 * o2 > 0 || o3 * o4 > 0) return false;
-  if (o1 != 0 || o2 != 0 || o3 != 0 || o4 != 0) return true;
+  if (o1 * o2 > 0 || o3 * o4 > 0)
+    return false;
+  if (o1 != 0 || o2 != 0 || o3 != 0 || o4 != 0)
+    return true;
   for (int i = 1; i < 3; ++i) { // on one line: the intervals must overlap in both coordinates
     const int x = (drop + i) % 3;
     if (std::max(p[x], q[x]) < std::min(r[x], s[x]) || std::max(r[x], s[x]) < std::min(p[x], q[x]))
@@ -130,10 +139,12 @@ bool coplanar_triangles_intersect(const std::array<Vec3, 3>& a, const std::array
   int drop = 0;
   const Vec3 n = (a[1] - a[0]).cross(a[2] - a[0]).cwiseAbs();
   n.maxCoeff(&drop);
-  for (int i = 0; i < 3 && projected_orientation(a[0], a[1], a[2], drop) == 0; ++i) drop = i;
+  for (int i = 0; i < 3 && projected_orientation(a[0], a[1], a[2], drop) == 0; ++i)
+    drop = i;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      if (segments_meet(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], drop)) return true;
+      if (segments_meet(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], drop))
+        return true;
   return coplanar_point_in(a[0], b, drop) || coplanar_point_in(b[0], a, drop);
 }
 
@@ -141,7 +152,8 @@ bool coplanar_triangles_intersect(const std::array<Vec3, 3>& a, const std::array
 /// do so inside t?
 bool crosses_inside(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
   const int s0 = orientation(p, q, t[0], t[1]), s1 = orientation(p, q, t[1], t[2]);
-  if (s0 * s1 < 0) return false;
+  if (s0 * s1 < 0)
+    return false;
   const int s2 = orientation(p, q, t[2], t[0]);
   return s0 * s2 >= 0 && s1 * s2 >= 0;
 }
@@ -159,9 +171,12 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                            (std::abs(ca1) + std::abs(ca2)) * std::abs(bdz) +
                            (std::abs(ab1) + std::abs(ab2)) * std::abs(cdz);
   const double bound = (7 + 56 * EPSILON) * EPSILON * permanent;
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  if (permanent == 0) return 0;
+  if (det > bound)
+    return 1;
+  if (-det > bound)
+    return -1;
+  if (permanent == 0)
+    return 0;
   return exact_orientation(a, b, c, d);
 }
 
@@ -170,31 +185,38 @@ int projected_orientation(const Vec3& a, const Vec3& b, const Vec3& c, int drop)
   const double left = (a[x] - c[x]) * (b[y] - c[y]), right = (a[y] - c[y]) * (b[x] - c[x]);
   const double det = left - right,
                bound = (3 + 16 * EPSILON) * EPSILON * (std::abs(left) + std::abs(right));
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  if (left == 0 && right == 0) return 0;
+  if (det > bound)
+    return 1;
+  if (-det > bound)
+    return -1;
+  if (left == 0 && right == 0)
+    return 0;
   return exact_area(a[x], a[y], b[x], b[y], c[x], c[y]);
 }
 
 bool segment_crosses_triangle(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
   const int sp = orientation(t[0], t[1], t[2], p), sq = orientation(t[0], t[1], t[2], q);
-  if (sp * sq > 0 || (sp == 0 && sq == 0)) return false;
+  if (sp * sq > 0 || (sp == 0 && sq == 0))
+    return false;
   return crosses_inside(p, q, t);
 }
 
 bool triangles_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
   int side_b[3], side_a[3];
-  for (int k = 0; k < 3; ++k) side_b[k] = orientation(a[0], a[1], a[2], b[k]);
+  for (int k = 0; k < 3; ++k)
+    side_b[k] = orientation(a[0], a[1], a[2], b[k]);
   if ((side_b[0] > 0 && side_b[1] > 0 && side_b[2] > 0) ||
       (side_b[0] < 0 && side_b[1] < 0 && side_b[2] < 0))
     return false;
-  for (int k = 0; k < 3; ++k) side_a[k] = orientation(b[0], b[1], b[2], a[k]);
+  for (int k = 0; k < 3; ++k)
+    side_a[k] = orientation(b[0], b[1], b[2], a[k]);
   if ((side_a[0] > 0 && side_a[1] > 0 && side_a[2] > 0) ||
       (side_a[0] < 0 && side_a[1] < 0 && side_a[2] < 0))
     return false;
   const bool coplanar = side_a[0] == 0 && side_a[1] == 0 && side_a[2] == 0;
   if (coplanar || (side_b[0] == 0 && side_b[1] == 0 && side_b[2] == 0)) {
-    if (is_flat(a) || is_flat(b)) return false;
+    if (is_flat(a) || is_flat(b))
+      return false;
     return coplanar && coplanar_triangles_intersect(a, b);
   }
   // Neither is flat, or a plane would have had all signs zero. The common segment ends on an edge

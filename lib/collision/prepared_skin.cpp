@@ -30,10 +30,12 @@ bool ascends_below(const std::vector<int>& list, std::size_t n) {
 }
 
 bool permutes(const std::vector<int>& order, std::size_t n) {
-  if (order.size() != n) return false;
+  if (order.size() != n)
+    return false;
   std::vector<char> seen(n, 0);
   for (const int i : order) {
-    if (i < 0 || static_cast<std::size_t>(i) >= n || seen[i]) return false;
+    if (i < 0 || static_cast<std::size_t>(i) >= n || seen[i])
+      return false;
     seen[i] = 1;
   }
   return true;
@@ -87,12 +89,14 @@ std::optional<PreparedSkin> prepared_from_bytes(std::string_view bytes, const st
       !bytes.starts_with(begin))
     return {};
   std::string_view rest = bytes.substr(0, bytes.size() - HASH_LENGTH);
-  if (io::sha256(rest) != bytes.substr(rest.size())) return {};
+  if (io::sha256(rest) != bytes.substr(rest.size()))
+    return {};
   rest.remove_prefix(begin.size());
   bool whole = true;
   const auto take = [&](void* to, std::size_t n) {
     whole = whole && n <= rest.size();
-    if (!whole || n == 0) return;
+    if (!whole || n == 0)
+      return;
     std::memcpy(to, rest.data(), n);
     rest.remove_prefix(n);
   };
@@ -107,11 +111,13 @@ std::optional<PreparedSkin> prepared_from_bytes(std::string_view bytes, const st
     std::uint64_t size = 0;
     take(&size, sizeof size);
     whole = whole && size <= rest.size() / sizeof(int);
-    if (!whole) return;
+    if (!whole)
+      return;
     list.resize(size);
     take(list.data(), size * sizeof(int));
   });
-  if (!whole || !rest.empty() || !prepared.fits(n_vertices, n_triangles)) return {};
+  if (!whole || !rest.empty() || !prepared.fits(n_vertices, n_triangles))
+    return {};
   return prepared;
 }
 

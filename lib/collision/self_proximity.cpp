@@ -22,12 +22,15 @@ void join_sorted(std::size_t n_first, std::vector<Candidate>& out,
                  const std::vector<std::vector<Candidate>>& chunks) {
   std::vector<int> begin(n_first + 1, 0);
   for (const auto& chunk : chunks)
-    for (const auto& c : chunk) ++begin[static_cast<std::size_t>(c.a) + 1];
-  for (std::size_t i = 0; i < n_first; ++i) begin[i + 1] += begin[i];
+    for (const auto& c : chunk)
+      ++begin[static_cast<std::size_t>(c.a) + 1];
+  for (std::size_t i = 0; i < n_first; ++i)
+    begin[i + 1] += begin[i];
   out.resize(static_cast<std::size_t>(begin[n_first]));
   std::vector<int> next(begin.begin(), begin.end() - 1);
   for (const auto& chunk : chunks)
-    for (const auto& c : chunk) out[next[c.a]++] = c;
+    for (const auto& c : chunk)
+      out[next[c.a]++] = c;
   for (std::size_t i = 0; i < n_first; ++i)
     std::sort(out.begin() + begin[i], out.begin() + begin[i + 1],
               [](const Candidate& c, const Candidate& d) { return c.b < d.b; });
@@ -46,7 +49,8 @@ void measure_all(const std::vector<Candidate>& candidates, double reach, std::ve
         found[begin / PAIR_GRAIN].push_back(pair);
   });
   out.clear();
-  for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+  for (const auto& part : found)
+    out.insert(out.end(), part.begin(), part.end());
 }
 
 /// What overlaps each of `begin` to `end`, things that lie beside each other where their numbers
@@ -84,7 +88,9 @@ void search_groups(const TriangleTree& tree, std::size_t begin, std::size_t end,
 }
 
 /// Not above the root of x.
-float root_below(double x) { return static_cast<float>(std::sqrt(x) * (1 - 2e-7)); }
+float root_below(double x) {
+  return static_cast<float>(std::sqrt(x) * (1 - 2e-7));
+}
 
 } // namespace
 
@@ -102,11 +108,15 @@ SelfProximity::SelfProximity(std::size_t n_particles, const std::vector<Triangle
     }
   std::sort(listed.begin(), listed.end());
   listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
-  if (listed.empty()) return;
+  if (listed.empty())
+    return;
   m_never_begin.assign(n_particles + 1, 0);
-  for (const auto& pair : listed) ++m_never_begin[static_cast<std::size_t>(pair[0]) + 1];
-  for (std::size_t v = 0; v < n_particles; ++v) m_never_begin[v + 1] += m_never_begin[v];
-  for (const auto& pair : listed) m_never.push_back(pair[1]);
+  for (const auto& pair : listed)
+    ++m_never_begin[static_cast<std::size_t>(pair[0]) + 1];
+  for (std::size_t v = 0; v < n_particles; ++v)
+    m_never_begin[v + 1] += m_never_begin[v];
+  for (const auto& pair : listed)
+    m_never.push_back(pair[1]);
 }
 
 bool SelfProximity::never_collide(int a, int b) const {
@@ -116,10 +126,12 @@ bool SelfProximity::never_collide(int a, int b) const {
 }
 
 bool SelfProximity::candidates_hold(const std::vector<Vec3>& x, double radius) {
-  if (m_candidates_x.size() != x.size()) return false;
+  if (m_candidates_x.size() != x.size())
+    return false;
   // a pair's distance changes by at most what its ends move against the common drift
   Vec3 drift = Vec3::Zero();
-  for (std::size_t v = 0; v < x.size(); ++v) drift += x[v] - m_candidates_x[v];
+  for (std::size_t v = 0; v < x.size(); ++v)
+    drift += x[v] - m_candidates_x[v];
   drift /= std::max<double>(1, static_cast<double>(x.size()));
   double moved2 = 0;
   for (std::size_t v = 0; v < x.size(); ++v) {
@@ -148,10 +160,12 @@ void SelfProximity::search_vertices(std::size_t begin, std::size_t end,
           const int slot = first_slot + std::countr_zero(static_cast<unsigned>(lanes)),
                     f = m_tree.triangle_of_slot(slot);
           const Triangle& t = m_triangles[f];
-          if (v == t[0] || v == t[1] || v == t[2]) continue;
+          if (v == t[0] || v == t[1] || v == t[2])
+            continue;
           const auto& corner = m_tree.corners(slot);
           const double d2 = point_triangle(x[v], corner[0], corner[1], corner[2]).squared_distance;
-          if (!(d2 <= radius2)) continue;
+          if (!(d2 <= radius2))
+            continue;
           if (!m_never.empty() &&
               (never_collide(v, t[0]) || never_collide(v, t[1]) || never_collide(v, t[2])))
             continue;
@@ -174,12 +188,15 @@ void SelfProximity::search_edges(std::size_t begin, std::size_t end,
       [&](std::size_t at, int first_slot, int lanes) {
         // each pair once: from its lower slot
         const int slot = static_cast<int>(at), behind = slot - first_slot;
-        if (behind >= 3) return;
-        if (behind >= 0) lanes &= ~((2 << behind) - 1);
+        if (behind >= 3)
+          return;
+        if (behind >= 0)
+          lanes &= ~((2 << behind) - 1);
         const FourEdges &of_a = m_four_edges[slot / 4], &b = m_four_edges[first_slot / 4];
         const int k = slot % 4, a0 = of_a.first[k], a1 = of_a.second[k];
         lanes &= ~either_is(b.first, b.second, a0, a1);
-        if (!lanes) return;
+        if (!lanes)
+          return;
         // Four at a time in float, with slack for rounding and for edges so parallel that float
         // cannot tell where they are nearest (an angle below 3.2e-3); what passes is measured in
         // double.
@@ -207,7 +224,8 @@ void SelfProximity::search_edges(std::size_t begin, std::size_t end,
           const int lane = std::countr_zero(static_cast<unsigned>(lanes)), b0 = b.first[lane],
                     b1 = b.second[lane];
           const double d2 = collision::edge_edge(x[a0], x[a1], x[b0], x[b1]).squared_distance;
-          if (!(d2 <= radius2)) continue;
+          if (!(d2 <= radius2))
+            continue;
           if (!m_never.empty() && (never_collide(a0, b0) || never_collide(a0, b1) ||
                                    never_collide(a1, b0) || never_collide(a1, b1)))
             continue;
@@ -229,7 +247,8 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
   ++m_rebuilds;
   if (m_edge_tree.n_slots() == 0) {
     std::vector<Triangle> flat;
-    for (const auto& [a, b] : m_topology.edges) flat.push_back({a, b, b});
+    for (const auto& [a, b] : m_topology.edges)
+      flat.push_back({a, b, b});
     m_edge_tree = TriangleTree(x, flat, m_k);
     m_four_edges.resize((flat.size() + 3) / 4);
     for (int s = 0; s < m_edge_tree.n_slots(); ++s) {
@@ -242,7 +261,8 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
   }
   double size = 0;
   for (const Vec3& p : x)
-    if (p.allFinite()) size = std::max(size, p.lpNorm<Eigen::Infinity>());
+    if (p.allFinite())
+      size = std::max(size, p.lpNorm<Eigen::Infinity>());
   m_float_slack = static_cast<float>(2e-6 * size);
   parallel_for(m_four_edges.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
@@ -273,20 +293,23 @@ void SelfProximity::update(const std::vector<Vec3>& x, double radius,
     std::vector<char> seen(m_particles, 0);
     for (int f : m_tree.triangle_order())
       for (int v : m_triangles[f]) {
-        if (!seen[v]) m_tree_vertices.push_back(v);
+        if (!seen[v])
+          m_tree_vertices.push_back(v);
         seen[v] = 1;
       }
   } else {
     m_tree.refit(x, false);
   }
   ++m_updates;
-  if (!candidates_hold(x, radius)) find_candidates(x, radius);
+  if (!candidates_hold(x, radius))
+    find_candidates(x, radius);
   const double radius2 = radius * radius, reach = (radius + 2 * m_moved) * (1 + 1e-9);
   measure_all(m_vertex_face_candidates, reach, m_vertex_face,
               [&](const Candidate& c, VertexFacePair& pair) {
                 const Triangle& t = m_triangles[c.b];
                 const PointTriangle d = point_triangle(x[c.a], x[t[0]], x[t[1]], x[t[2]]);
-                if (!(d.squared_distance <= radius2)) return false;
+                if (!(d.squared_distance <= radius2))
+                  return false;
                 pair = {c.a, c.b, std::sqrt(d.squared_distance), d.barycentric, false};
                 return true;
               });
@@ -295,11 +318,13 @@ void SelfProximity::update(const std::vector<Vec3>& x, double radius,
                 const auto [a0, a1] = m_topology.edges[c.a];
                 const auto [b0, b1] = m_topology.edges[c.b];
                 const EdgeEdge d = collision::edge_edge(x[a0], x[a1], x[b0], x[b1]);
-                if (!(d.squared_distance <= radius2)) return false;
+                if (!(d.squared_distance <= radius2))
+                  return false;
                 pair = {c.a, c.b, std::sqrt(d.squared_distance), d.s, d.t, false};
                 return true;
               });
-  if (!intersecting.empty()) mark_exempt(intersecting);
+  if (!intersecting.empty())
+    mark_exempt(intersecting);
 }
 
 bool SelfProximity::has_vertex_face(const std::array<int, 2>& pair) const {
@@ -332,14 +357,16 @@ void SelfProximity::mark_exempt(const std::vector<std::array<int, 2>>& intersect
                               std::array<int, 2>{std::min(f, g), std::max(f, g)});
   };
   for (VertexFacePair& pair : m_vertex_face) {
-    if (!touched[pair.triangle]) continue;
+    if (!touched[pair.triangle])
+      continue;
     for (int f : m_topology.triangles_of_vertex(pair.vertex))
       pair.exempt |= crosses(f, pair.triangle);
   }
   for (EdgeEdgePair& pair : m_edge_edge)
     for (int f : m_topology.triangles_of_edge(pair.edge_a))
       if (touched[f])
-        for (int g : m_topology.triangles_of_edge(pair.edge_b)) pair.exempt |= crosses(f, g);
+        for (int g : m_topology.triangles_of_edge(pair.edge_b))
+          pair.exempt |= crosses(f, g);
 }
 
 } // namespace sloper::collision

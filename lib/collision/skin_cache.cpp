@@ -20,17 +20,20 @@ BodyCollider SkinCache::collider(const TriangleMesh& skin) {
   BodyCollider fresh(skin);
   ++m_counts.prepared;
   const PreparedSkin& prepared = m_met.emplace(key, fresh.prepared()).first->second;
-  if (!m_folder.empty() && m_writable) write(key, prepared);
+  if (!m_folder.empty() && m_writable)
+    write(key, prepared);
   return fresh;
 }
 
 std::optional<PreparedSkin> SkinCache::read(const std::string& key, const TriangleMesh& skin) {
   const std::string file = file_of(key);
-  if (m_folder.empty()) return {};
+  if (m_folder.empty())
+    return {};
   std::optional<PreparedSkin> known;
   try {
     const std::optional<std::string> bytes = io::read_file_if_there(file);
-    if (!bytes) return {};
+    if (!bytes)
+      return {};
     known = prepared_from_bytes(*bytes, key, skin.positions.size(), skin.triangles.size());
   } catch (const Error&) { // not ours to read: as if it had never been
   }

@@ -15,7 +15,8 @@ struct HalfEdge {
 
 /// Turns counts, each one place after its own, into where each run begins.
 void sum_up(std::vector<int>& begin) {
-  for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
+  for (std::size_t k = 1; k < begin.size(); ++k)
+    begin[k] += begin[k - 1];
 }
 
 /// All half-edges, by their lower vertex. @param begin  #V + 1, out: where those of a vertex begin
@@ -31,7 +32,7 @@ std::vector<HalfEdge> half_edges_by_low_vertex(std::size_t n_vertices,
   sum_up(begin);
   std::vector<HalfEdge> half_edges(3 * triangles.size());
   std::vector<int> next(begin.begin(), begin.end() - 1);
-  for (int f = 0; f < static_cast<int>(triangles.size()); ++f)
+  for (int f = 0; f < std::ssize(triangles); ++f)
     for (int k = 0; k < 3; ++k) {
       const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
       const int at = next[std::min(a, b)]++;
@@ -55,7 +56,7 @@ void add_edges(Topology& topology, std::size_t n_vertices, const std::vector<Tri
       const bool is_new = h == first || h->high != (h - 1)->high;
       if (is_new) {
         if (!topology.edges.empty())
-          topology.edge_begin.push_back(static_cast<int>(topology.edge_triangle.size()));
+          topology.edge_begin.push_back(std::ssize(topology.edge_triangle));
         topology.edges.push_back({static_cast<int>(v), h->high});
       }
       const int edge = static_cast<int>(topology.edges.size()) - 1;
@@ -64,7 +65,7 @@ void add_edges(Topology& topology, std::size_t n_vertices, const std::vector<Tri
     }
   }
   if (!topology.edges.empty())
-    topology.edge_begin.push_back(static_cast<int>(topology.edge_triangle.size()));
+    topology.edge_begin.push_back(std::ssize(topology.edge_triangle));
 }
 
 void add_triangles_of_vertices(Topology& topology, std::size_t n_vertices,
@@ -72,11 +73,12 @@ void add_triangles_of_vertices(Topology& topology, std::size_t n_vertices,
   std::vector<int>& begin = topology.vertex_begin;
   begin.assign(n_vertices + 1, 0);
   for (const Triangle& t : triangles)
-    for (int v : t) ++begin[v + 1];
+    for (int v : t)
+      ++begin[v + 1];
   sum_up(begin);
   topology.vertex_triangle.resize(3 * triangles.size());
   std::vector<int> next(begin.begin(), begin.end() - 1);
-  for (int f = 0; f < static_cast<int>(triangles.size()); ++f)
+  for (int f = 0; f < std::ssize(triangles); ++f)
     for (int v : triangles[f]) {
       const int at = next[v]++;
       topology.vertex_triangle[at] = f;

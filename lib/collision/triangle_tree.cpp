@@ -34,7 +34,9 @@ float float_above(double x) {
 
 /// Which of DOP_DIRECTIONS is axis `a` of a tree with `axes` axes: 18-DOPs skip the corner
 /// directions.
-int direction_index(int a, int axes) { return axes == 9 && a >= 3 ? a + 4 : a; }
+int direction_index(int a, int axes) {
+  return axes == 9 && a >= 3 ? a + 4 : a;
+}
 
 void interval(const std::array<Vec3, 3>& corners, int axis, int axes, double& low, double& high) {
   double d[3];
@@ -46,7 +48,9 @@ void interval(const std::array<Vec3, 3>& corners, int axis, int axes, double& lo
 }
 
 /// Where slots are cut: at multiples of four, so that the lowest nodes are full.
-int middle_of(int from, int to) { return from + ((to - from) / 2 + 3) / 4 * 4; }
+int middle_of(int from, int to) {
+  return from + ((to - from) / 2 + 3) / 4 * 4;
+}
 
 /// The borders of a node's children, halves of halves; of more than four slots.
 std::array<int, 5> quarters(int begin, int end) {
@@ -57,10 +61,12 @@ std::array<int, 5> quarters(int begin, int end) {
 
 /// Puts the slots of a subtree in order: each cut goes along the widest side of the centres.
 void sort_slots(std::vector<int>& order, const std::vector<Vec3>& centers, int begin, int end) {
-  if (end - begin <= 4) return;
+  if (end - begin <= 4)
+    return;
   const auto cut = [&](int from, int middle, int to) {
     Box3 box;
-    for (int i = from; i < to; ++i) box.add(centers[order[i]]);
+    for (int i = from; i < to; ++i)
+      box.add(centers[order[i]]);
     int axis;
     box.size().maxCoeff(&axis);
     std::nth_element(order.begin() + from, order.begin() + middle, order.begin() + to,
@@ -71,9 +77,12 @@ void sort_slots(std::vector<int>& order, const std::vector<Vec3>& centers, int b
   };
   const std::array<int, 5> border = quarters(begin, end);
   cut(begin, border[2], end);
-  if (border[1] < border[2]) cut(begin, border[1], border[2]);
-  if (border[3] < end) cut(border[2], border[3], end);
-  for (int i = 0; i < 4; ++i) sort_slots(order, centers, border[i], border[i + 1]);
+  if (border[1] < border[2])
+    cut(begin, border[1], border[2]);
+  if (border[3] < end)
+    cut(border[2], border[3], end);
+  for (int i = 0; i < 4; ++i)
+    sort_slots(order, centers, border[i], border[i + 1]);
 }
 
 std::vector<int> sorted_triangles(const std::vector<Vec3>& positions,
@@ -88,7 +97,8 @@ std::vector<int> sorted_triangles(const std::vector<Vec3>& positions,
     // the middle of the box, which median splits separate better than the centroid of a sliver
     centers[f] = 0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c));
     for (int i = 0; i < 3; ++i)
-      if (!std::isfinite(centers[f][i])) centers[f][i] = 0; // an ordering must not meet NaN
+      if (!std::isfinite(centers[f][i]))
+        centers[f][i] = 0; // an ordering must not meet NaN
   }
   sort_slots(order, centers, 0, n);
   return order;
@@ -111,7 +121,8 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions,
     throw Error(ErrorKind::INTERNAL, "general.internal"_id, {}, {},
                 "a tree's order has as many triangles as the mesh");
   m_nodes.reserve(n / 2 + 1);
-  if (n > 0) build(0, n);
+  if (n > 0)
+    build(0, n);
   m_slot_of_triangle.resize(n);
   m_slot_vertices.resize(n);
   for (int s = 0; s < n; ++s) {
@@ -122,7 +133,8 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions,
   m_extra.resize(m_nodes.size() * (m_axes - 3));
   m_leaves_of_node.assign(m_nodes.size(), -1);
   for (std::size_t node = 0; node < m_nodes.size(); ++node) {
-    if (!m_nodes[node].is_lowest()) continue;
+    if (!m_nodes[node].is_lowest())
+      continue;
     m_leaves_of_node[node] = static_cast<int>(m_leaves.size());
     m_leaves.emplace_back();
   }
@@ -134,7 +146,8 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions,
       const auto [node, end] = stack.back();
       stack.pop_back();
       const int first = [&](int at) { // leftmost slot
-        while (m_nodes[at].child[0] >= 0) at = m_nodes[at].child[0];
+        while (m_nodes[at].child[0] >= 0)
+          at = m_nodes[at].child[0];
         return -2 - m_nodes[at].child[0];
       }(node);
       const int last = *std::max_element(m_nodes[node].slot_end, m_nodes[node].slot_end + 4);
@@ -145,7 +158,8 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions,
       m_top_nodes.push_back(node);
       int stop = end;
       for (int i = 3; i >= 0; --i) {
-        if (m_nodes[node].child[i] < 0) continue;
+        if (m_nodes[node].child[i] < 0)
+          continue;
         stack.push_back({m_nodes[node].child[i], stop});
         stop = m_nodes[node].child[i];
       }
@@ -171,7 +185,8 @@ int TriangleTree::build(int begin, int end) {
   int lane = 0;
   for (int i = 0; i < 4; ++i) {
     const int from = border[i], to = border[i + 1];
-    if (from >= to) continue;
+    if (from >= to)
+      continue;
     const int child = build(from, to); // which moves m_nodes
     m_nodes[index].child[lane] = child;
     m_nodes[index].slot_end[lane] = to;
@@ -211,15 +226,19 @@ void TriangleTree::refit_node(int index) {
 void TriangleTree::refit(const std::vector<Vec3>& positions, bool for_points) {
   parallel_for(m_corners.size(), SUBTREE_SLOTS, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
-      for (int k = 0; k < 3; ++k) m_corners[s][k] = positions[m_slot_vertices[s][k]];
+      for (int k = 0; k < 3; ++k)
+        m_corners[s][k] = positions[m_slot_vertices[s][k]];
   });
   parallel_for(m_subtrees.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
-      for (int node = m_subtrees[s][1] - 1; node >= m_subtrees[s][0]; --node) refit_node(node);
+      for (int node = m_subtrees[s][1] - 1; node >= m_subtrees[s][0]; --node)
+        refit_node(node);
   });
-  for (auto node = m_top_nodes.rbegin(); node != m_top_nodes.rend(); ++node) refit_node(*node);
+  for (auto node = m_top_nodes.rbegin(); node != m_top_nodes.rend(); ++node)
+    refit_node(*node);
   m_leaves_hold = for_points;
-  if (for_points) fill_leaves();
+  if (for_points)
+    fill_leaves();
 }
 
 void TriangleTree::fill_leaves() {
@@ -228,7 +247,8 @@ void TriangleTree::fill_leaves() {
   parallel_for(m_nodes.size(), GRAIN, [&](std::size_t begin, std::size_t end) {
     double side2 = 0, far = 0;
     for (std::size_t node = begin; node < end; ++node) {
-      if (m_leaves_of_node[node] < 0) continue;
+      if (m_leaves_of_node[node] < 0)
+        continue;
       Leaves& leaves = m_leaves[m_leaves_of_node[node]];
       for (int i = 0; i < 4; ++i) {
         const int child =
@@ -248,8 +268,10 @@ void TriangleTree::fill_leaves() {
     farthest[begin / GRAIN] = far;
   });
   double side2 = 0, far = 0;
-  for (double x : longest2) side2 = std::max(side2, x);
-  for (double x : farthest) far = std::max(far, x);
+  for (double x : longest2)
+    side2 = std::max(side2, x);
+  for (double x : farthest)
+    far = std::max(far, x);
   m_leaf_slack = static_cast<float>(2e-5 * std::sqrt(side2) + 4e-7 * far);
 }
 
@@ -302,7 +324,8 @@ Dop TriangleTree::dop_of(const Box3& box) const {
     const Vec3& d = DOP_DIRECTIONS[direction_index(a, m_axes)];
     double low = 0, high = 0;
     for (int i = 0; i < 3; ++i) {
-      if (d[i] == 0) continue;
+      if (d[i] == 0)
+        continue;
       low += d[i] > 0 ? box.low[i] : -box.high[i];
       high += d[i] > 0 ? box.high[i] : -box.low[i];
     }
@@ -334,13 +357,16 @@ double TriangleTree::first_hit(const Vec3& a, const Vec3& b) const {
     const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0],
                h = direction.cross(e2); // Moeller and Trumbore 1997
     const double det = e1.dot(h);
-    if (std::abs(det) < 1e-18) return;
+    if (std::abs(det) < 1e-18)
+      return;
     const Vec3 s = a - p[0];
     const double u = s.dot(h) / det;
-    if (u < 0 || u > 1) return;
+    if (u < 0 || u > 1)
+      return;
     const Vec3 q = s.cross(e1);
     const double v = direction.dot(q) / det, at = e2.dot(q) / det;
-    if (v < 0 || u + v > 1 || at < 0 || at > 1) return;
+    if (v < 0 || u + v > 1 || at < 0 || at > 1)
+      return;
     least = std::min(least, at);
   });
   return least;
@@ -360,8 +386,10 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance,
     bound = q.squared_distance;
     best = {triangle, q.point, q.barycentric, q.squared_distance, q.feature};
   };
-  if (m_nodes.empty() || !p.allFinite()) return best;
-  if (hint_triangle >= 0 && hint_triangle < n_slots()) try_slot(m_slot_of_triangle[hint_triangle]);
+  if (m_nodes.empty() || !p.allFinite())
+    return best;
+  if (hint_triangle >= 0 && hint_triangle < n_slots())
+    try_slot(m_slot_of_triangle[hint_triangle]);
 
   // lower bounds in float: rounding of p and of the differences is covered by the slack
   const auto px = static_cast<float>(p.x()), py = static_cast<float>(p.y()),
@@ -389,7 +417,8 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance,
   alignas(16) float squared[4];
   while (top > 0) {
     const Entry entry = stack[--top];
-    if (entry.squared > near) continue;
+    if (entry.squared > near)
+      continue;
     const Node& node = m_nodes[entry.node];
     if (m_leaves_hold && m_leaves_of_node[entry.node] >= 0) {
       int mask = less_equal(squared_distances(m_leaves[m_leaves_of_node[entry.node]], point),
@@ -398,9 +427,11 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance,
       while (mask) {
         const int i = std::countr_zero(static_cast<unsigned>(mask));
         mask &= mask - 1;
-        if (node.child[i] != EMPTY) try_slot(-2 - node.child[i]);
+        if (node.child[i] != EMPTY)
+          try_slot(-2 - node.child[i]);
       }
-      if (bound != before) set_near();
+      if (bound != before)
+        set_near();
       continue;
     }
     Float4 sum = zero;
@@ -414,15 +445,18 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance,
     const int first = top;
     for (int i = 0; i < 4; ++i) {
       const int child = node.child[i];
-      if (child == EMPTY || !(squared[i] <= near)) continue;
+      if (child == EMPTY || !(squared[i] <= near))
+        continue;
       if (child <= -2) {
         const double before = bound;
         try_slot(-2 - child);
-        if (bound != before) set_near();
+        if (bound != before)
+          set_near();
         continue;
       }
       int at = top++; // nearest on top
-      for (; at > first && stack[at - 1].squared < squared[i]; --at) stack[at] = stack[at - 1];
+      for (; at > first && stack[at - 1].squared < squared[i]; --at)
+        stack[at] = stack[at - 1];
       stack[at] = {squared[i], child};
     }
   }

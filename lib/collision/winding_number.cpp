@@ -58,7 +58,8 @@ Moments moments_of(const std::array<Vec3, 3>& corners) {
   Quadratic k = {};
   for (const Vec3& c : corners) {
     const Quadratic e = product(c - m.center, c - m.center);
-    for (int i = 0; i < 6; ++i) k[i] += e[i] / 24;
+    for (int i = 0; i < 6; ++i)
+      k[i] += e[i] / 24;
   }
   m.linear = twice_times(k, m.normal) + (k[0] + k[1] + k[2]) * m.normal;
   add_product(k, m.normal, m.cubic);
@@ -76,7 +77,8 @@ void add_shifted(Moments& sum, const Moments& m) {
   }
   sum.normal += m.normal;
   sum.linear += m.linear + twice_times(half, shift) + (half[0] + half[1] + half[2]) * shift;
-  for (int i = 0; i < 10; ++i) sum.cubic[i] += m.cubic[i];
+  for (int i = 0; i < 10; ++i)
+    sum.cubic[i] += m.cubic[i];
   add_product(half, shift, sum.cubic);
 }
 
@@ -95,8 +97,10 @@ public:
     const double im = m_re * sine + m_im * cosine +
                       0.0; // never -0, which an arc tangent takes for the other side
     const double re = m_re * cosine - m_im * sine;
-    if (m_im >= 0 && sine >= 0 && im < 0) ++m_turns;
-    if (m_im < 0 && sine < 0 && im >= 0) --m_turns;
+    if (m_im >= 0 && sine >= 0 && im < 0)
+      ++m_turns;
+    if (m_im < 0 && sine < 0 && im >= 0)
+      --m_turns;
     const double size = std::abs(re) + std::abs(im);
     const double scale = size < 1e-100 || size > 1e100 ? 1 / size : 1;
     m_re = scale * re;
@@ -113,7 +117,8 @@ private:
 
 double solid_angle_fraction(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [sine, cosine] = half_solid_angle(p, a, b, c);
-  if (sine == 0 && cosine <= 0) return 0; // p lies in the triangle: neither side
+  if (sine == 0 && cosine <= 0)
+    return 0; // p lies in the triangle: neither side
   return std::atan2(sine, cosine) / (2 * units::PI);
 }
 
@@ -132,11 +137,13 @@ WindingNumber::WindingNumber(const TriangleTree& tree, double reach) {
     int n_lanes = 0;
     for (int i = 0; i < 4; ++i) {
       const int child = nodes[node].child[i];
-      if (child == TriangleTree::EMPTY) continue;
+      if (child == TriangleTree::EMPTY)
+        continue;
       if (child >= 0) {
         lanes[i] = waiting.back();
         waiting.pop_back();
-      } else lanes[i] = moments_of(tree.corners(-2 - child));
+      } else
+        lanes[i] = moments_of(tree.corners(-2 - child));
       sum.area += lanes[i].area;
       weighted += lanes[i].area * lanes[i].center;
       middle += lanes[i].center;
@@ -144,14 +151,17 @@ WindingNumber::WindingNumber(const TriangleTree& tree, double reach) {
     }
     sum.center = sum.area > 0 ? Vec3(weighted / sum.area) : Vec3(middle / std::max(n_lanes, 1));
     for (int i = 0; i < 4; ++i)
-      if (nodes[node].child[i] != TriangleTree::EMPTY) add_shifted(sum, lanes[i]);
+      if (nodes[node].child[i] != TriangleTree::EMPTY)
+        add_shifted(sum, lanes[i]);
     waiting.push_back(sum);
-    if (m_far_of_node[node] < 0) continue;
+    if (m_far_of_node[node] < 0)
+      continue;
     FarField& far = m_far[m_far_of_node[node]];
     for (int i = 0; i < 4; ++i) {
       const Moments& m = lanes[i];
       const auto fill = [i](float(*to)[4], const auto& from, int n) {
-        for (int k = 0; k < n; ++k) to[k][i] = static_cast<float>(from[k]);
+        for (int k = 0; k < n; ++k)
+          to[k][i] = static_cast<float>(from[k]);
       };
       fill(far.center, m.center, 3);
       fill(far.normal, m.normal, 3);
@@ -173,7 +183,8 @@ WindingNumber::WindingNumber(const TriangleTree& tree, double reach) {
 
 double WindingNumber::at(const TriangleTree& tree, const Vec3& p) const {
   const auto& nodes = tree.nodes();
-  if (nodes.empty()) return 0;
+  if (nodes.empty())
+    return 0;
   const Float4 px = Float4::all(static_cast<float>(p.x())),
                py = Float4::all(static_cast<float>(p.y())),
                pz = Float4::all(static_cast<float>(p.z()));
@@ -195,7 +206,8 @@ double WindingNumber::at(const TriangleTree& tree, const Vec3& p) const {
     const auto& child = nodes[node].child;
     if (m_far_of_node[node] < 0) {
       for (int i = 0; i < 4; ++i)
-        if (child[i] != TriangleTree::EMPTY) add_triangle(-2 - child[i]);
+        if (child[i] != TriangleTree::EMPTY)
+          add_triangle(-2 - child[i]);
       continue;
     }
     const FarField& far = m_far[m_far_of_node[node]];
@@ -229,8 +241,10 @@ double WindingNumber::at(const TriangleTree& tree, const Vec3& p) const {
     while (near) {
       const int i = std::countr_zero(static_cast<unsigned>(near));
       near &= near - 1;
-      if (child[i] >= 0) stack[top++] = child[i];
-      else if (child[i] != TriangleTree::EMPTY) add_triangle(-2 - child[i]);
+      if (child[i] >= 0)
+        stack[top++] = child[i];
+      else if (child[i] != TriangleTree::EMPTY)
+        add_triangle(-2 - child[i]);
     }
   }
   alignas(16) float sums[4];

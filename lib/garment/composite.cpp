@@ -24,7 +24,8 @@ ByDirection bending_along(const Material& m) {
 } // namespace
 
 Material layered(const Material& face, const std::vector<ClothLayer>& layers) {
-  if (layers.empty()) return face;
+  if (layers.empty())
+    return face;
   Material out = face;
   ByDirection bending = bending_along(face), tension = tensions_along(face), axis{};
   double top = 0.5 * face.thickness_m, bottom = -top; // of the stack, from the middle of the face
@@ -37,14 +38,17 @@ Material layered(const Material& face, const std::vector<ClothLayer>& layers) {
       const double bonded = layer.bond * pull[k], sum = tension[k] + bonded,
                    distance = middle - axis[k];
       bending[k] += own[k];
-      if (sum <= 0) continue;
+      if (sum <= 0)
+        continue;
       bending[k] += tension[k] * bonded / sum * distance * distance;
       axis[k] += bonded / sum * distance;
       tension[k] = sum;
     }
     (layer.outside ? top : bottom) += layer.outside ? m.thickness_m : -m.thickness_m;
-    if (layer.outside) out.friction_self = m.friction_self;
-    else out.friction_body = m.friction_body;
+    if (layer.outside)
+      out.friction_self = m.friction_self;
+    else
+      out.friction_body = m.friction_body;
     const double warp = out.stretch_warp_n_m + m.stretch_warp_n_m;
     out.poisson = (out.poisson * out.stretch_warp_n_m + m.poisson * m.stretch_warp_n_m) / warp;
     out.stretch_warp_n_m = warp;
@@ -53,7 +57,8 @@ Material layered(const Material& face, const std::vector<ClothLayer>& layers) {
     out.density_kg_m2 += m.density_kg_m2;
     out.thickness_m += m.thickness_m;
     out.name += "+" + m.name;
-    if (!m.source.empty()) out.source += "; with " + m.name + ": " + m.source;
+    if (!m.source.empty())
+      out.source += "; with " + m.name + ": " + m.source;
     by_direction |= layer.bond > 0 || cloth::bends_by_direction(m);
   }
   out.bend_n_m = 0.5 * (bending[0] + bending[1]);

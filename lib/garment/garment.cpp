@@ -52,7 +52,8 @@ void check_garment(const Garment& garment) {
     check_range(garment.particle_of, garment.position.size(), "particle of point");
     check_finite(garment.position, "particle");
   }
-  if (garment.rest_scale.empty()) return;
+  if (garment.rest_scale.empty())
+    return;
   check_count(garment.rest_scale.size(), panels.triangles.size(), "rest length factors");
   for (std::size_t f = 0; f < garment.rest_scale.size(); ++f)
     for (const double scale : garment.rest_scale[f])
@@ -62,7 +63,8 @@ void check_garment(const Garment& garment) {
 }
 
 std::vector<Triangle> Garment::particle_triangles() const {
-  if (particle_of.empty()) return panels.triangles; // unsewn: every vertex is its own particle
+  if (particle_of.empty())
+    return panels.triangles; // unsewn: every vertex is its own particle
   std::vector<Triangle> triangles;
   triangles.reserve(panels.triangles.size());
   for (const Triangle& t : panels.triangles)

@@ -64,7 +64,8 @@ Json seam_json(const pattern::MeshSeam& seam) {
   j["length_b_m"] = seam.length_b;
   j["a"] = Json(seam.a);
   j["b"] = Json(seam.b);
-  if (seam.open) j["open"] = true;
+  if (seam.open)
+    j["open"] = true;
   return j;
 }
 
@@ -72,7 +73,8 @@ Json rest_scale_json(const Garment& garment) {
   Json rows = Json::array();
   for (std::size_t f = 0; f < garment.rest_scale.size(); ++f) {
     const auto& s = garment.rest_scale[f];
-    if (s[0] != 1 || s[1] != 1 || s[2] != 1) rows.push_back({f, s[0], s[1], s[2]});
+    if (s[0] != 1 || s[1] != 1 || s[2] != 1)
+      rows.push_back({f, s[0], s[1], s[2]});
   }
   return rows;
 }
@@ -84,7 +86,8 @@ Json bind_json(const Bind& bind) {
   j["marks"] = Json::array();
   for (const auto& marks : bind.marks) {
     Json row = Json::object();
-    for (const auto& [name, z] : marks) row[name] = z;
+    for (const auto& [name, z] : marks)
+      row[name] = z;
     j["marks"].push_back(row);
   }
   j["columns"] = {"frame", "weight", "theta", "z", "gap"};
@@ -104,12 +107,14 @@ Json redrapes_json(const Garment& garment) {
   const Redrapes& r = garment.redrapes;
   Json j;
   j["count"] = r.count;
-  if (r.spread_m.size() == garment.position.size()) j["spread_m"] = r.spread_m;
+  if (r.spread_m.size() == garment.position.size())
+    j["spread_m"] = r.spread_m;
   j["girths"] = Json::object();
   for (const auto& [name, row] : r.girths)
     j["girths"][name] = {{"ease_m", row.ease_m}, {"strain", row.strain}, {"gap_m", row.gap_m}};
   j["hems_m"] = Json::object();
-  for (const auto& [name, sd] : r.hems_m) j["hems_m"][name] = sd;
+  for (const auto& [name, sd] : r.hems_m)
+    j["hems_m"][name] = sd;
   return j;
 }
 
@@ -127,13 +132,15 @@ std::vector<int> read_indices(const Node& node, int end) {
 
 int count(const Node& node) {
   const int n = node.integer();
-  if (n < 0) node.fail("json.out-of-range"_id, "a count is negative");
+  if (n < 0)
+    node.fail("json.out-of-range"_id, "a count is negative");
   return n;
 }
 
 double positive(const Node& node) {
   const double x = node.number();
-  if (x <= 0) node.fail("json.out-of-range"_id, "expected a number above zero");
+  if (x <= 0)
+    node.fail("json.out-of-range"_id, "expected a number above zero");
   return x;
 }
 
@@ -188,7 +195,7 @@ void read_ids(const Node& node, pattern::PanelMesh& mesh) {
 }
 
 void read_seams(const Node& node, pattern::PanelMesh& mesh) {
-  const int n = static_cast<int>(mesh.pattern.size());
+  const int n = std::ssize(mesh.pattern);
   for (std::size_t k = 0; k < node.size(); ++k) {
     const Node s = node.at(k);
     pattern::MeshSeam seam{s.at("name").string(),
@@ -225,7 +232,8 @@ std::map<std::string, Material> read_materials(const Node& node) {
       m.at("bend_soft_share").fail("json.out-of-range"_id, "is more than all of it");
     if (m.has("bend_soft_radius_m"))
       material.bend_soft_radius_m = positive(m.at("bend_soft_radius_m"));
-    if (m.has("density_kg_m2")) positive(m.at("density_kg_m2"));
+    if (m.has("density_kg_m2"))
+      positive(m.at("density_kg_m2"));
     material.source = m.string("source", "");
     materials[key] = material;
   }
@@ -234,7 +242,8 @@ std::map<std::string, Material> read_materials(const Node& node) {
 
 std::vector<std::array<double, 3>> read_rest_scale(const Node& node, std::size_t n_triangles) {
   std::vector<std::array<double, 3>> scale;
-  if (node.size() == 0) return scale;
+  if (node.size() == 0)
+    return scale;
   scale.assign(n_triangles, {1, 1, 1});
   for (std::size_t k = 0; k < node.size(); ++k) {
     const Node row = node.at(k);
@@ -243,7 +252,8 @@ std::vector<std::array<double, 3>> read_rest_scale(const Node& node, std::size_t
     const int f = row.at(std::size_t{0}).integer();
     if (f < 0 || static_cast<std::size_t>(f) >= n_triangles)
       row.fail("json.bad-index"_id, "refers to a triangle that the mesh does not have");
-    for (std::size_t e = 0; e < 3; ++e) scale[f][e] = positive(row.at(e + 1));
+    for (std::size_t e = 0; e < 3; ++e)
+      scale[f][e] = positive(row.at(e + 1));
   }
   return scale;
 }
@@ -251,7 +261,8 @@ std::vector<std::array<double, 3>> read_rest_scale(const Node& node, std::size_t
 Bind read_bind(const Node& node, std::size_t n_particles) {
   Bind bind;
   const Node frames = node.at("frames"), marks = node.at("marks"), particles = node.at("particles");
-  for (std::size_t k = 0; k < frames.size(); ++k) bind.frames.push_back(frames.at(k).string());
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    bind.frames.push_back(frames.at(k).string());
   const Node lengths = node.at("lengths_m");
   if (lengths.size() != frames.size())
     lengths.fail("json.wrong-count"_id, "there must be one length for each frame");
@@ -321,7 +332,8 @@ void take_mesh(const io::ObjMesh& obj, const std::string& path, bool sewn, Garme
   garment.panels.pattern = obj.texture;
   garment.panels.triangles = obj.texture_triangles;
   garment.panels.placed.reserve(particle_of.size());
-  for (const int p : particle_of) garment.panels.placed.push_back(obj.positions[p]);
+  for (const int p : particle_of)
+    garment.panels.placed.push_back(obj.positions[p]);
   if (!sewn) {
     for (std::size_t t = 0; t < particle_of.size(); ++t)
       if (particle_of[t] != static_cast<int>(t))
@@ -345,7 +357,8 @@ void check_whole(const Garment& garment) {
 
 double not_negative(const Node& node) {
   const double x = node.number();
-  if (x < 0) node.fail("json.out-of-range"_id, "a spread is negative");
+  if (x < 0)
+    node.fail("json.out-of-range"_id, "a spread is negative");
   return x;
 }
 
@@ -392,7 +405,8 @@ Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::s
   if (root.has("pattern"))
     garment.panels.source = std::make_shared<pattern::Pattern>(
         pattern::read_pattern_json(root.at("pattern").json(), root.file()));
-  if (root.has("materials")) garment.materials = read_materials(root.at("materials"));
+  if (root.has("materials"))
+    garment.materials = read_materials(root.at("materials"));
   if (root.has("rest_scale"))
     garment.rest_scale = read_rest_scale(root.at("rest_scale"), garment.panels.triangles.size());
   garment.offset_m = root.number("offset_m", garment.offset_m);
@@ -407,8 +421,10 @@ Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::s
       for (const std::string& name : body.at("girths_m").keys())
         garment.body_girths_m[name] = positive(body.at("girths_m").at(name));
   }
-  if (root.has("scene")) garment.scene = read_scene_effects(root.at("scene"));
-  if (root.has("bind")) garment.bind = read_bind(root.at("bind"), garment.position.size());
+  if (root.has("scene"))
+    garment.scene = read_scene_effects(root.at("scene"));
+  if (root.has("bind"))
+    garment.bind = read_bind(root.at("bind"), garment.position.size());
   if (root.has("redrapes"))
     garment.redrapes = read_redrapes(root.at("redrapes"), garment.position.size());
   return garment;
@@ -428,13 +444,16 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
   document["name"] = garment.panels.name;
   document["mesh"] = mesh_name;
   document["converged"] = garment.converged;
-  if (garment.strain_unknown) document["strain_unknown"] = true;
+  if (garment.strain_unknown)
+    document["strain_unknown"] = true;
   document["sewn"] = sewn;
   document["offset_m"] = garment.offset_m;
   document["edge_length_m"] = garment.panels.edge_length;
-  if (garment.panels.seam_length > 0) document["seam_edge_length_m"] = garment.panels.seam_length;
+  if (garment.panels.seam_length > 0)
+    document["seam_edge_length_m"] = garment.panels.seam_length;
   Json girths = Json::object();
-  for (const auto& [name, value] : garment.body_girths_m) girths[name] = value;
+  for (const auto& [name, value] : garment.body_girths_m)
+    girths[name] = value;
   document["body"] = {{"sha256", garment.body_sha256}, {"girths_m", girths}};
   document["materials"] = Json::object();
   for (const auto& [name, material] : garment.materials)
@@ -458,9 +477,12 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
     t.push_back(id.t);
   }
   document["vertex_ids"] = {{"s", s}, {"t", t}};
-  if (!garment.scene.empty()) document["scene"] = scene_effects_json(garment.scene);
-  if (!garment.bind.empty()) document["bind"] = bind_json(garment.bind);
-  if (garment.redrapes.count > 0) document["redrapes"] = redrapes_json(garment);
+  if (!garment.scene.empty())
+    document["scene"] = scene_effects_json(garment.scene);
+  if (!garment.bind.empty())
+    document["bind"] = bind_json(garment.bind);
+  if (garment.redrapes.count > 0)
+    document["redrapes"] = redrapes_json(garment);
   return {std::move(document), io::obj_text(obj, "garment of " + generator_stamp(tool))};
 }
 

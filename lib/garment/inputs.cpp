@@ -14,13 +14,15 @@ namespace {
 std::vector<Message> body_findings(const Garment& garment, const Start& start) {
   const std::string file = io::file_name(start.file), body = io::file_name(start.body);
   if (start.body.empty()) {
-    if (garment.body_sha256.empty() && garment.panels.body_sha256.empty()) return {};
+    if (garment.body_sha256.empty() && garment.panels.body_sha256.empty())
+      return {};
     return {{"garment.body-absent"_id,
              file + (start.draped ? " hung on" : " was placed around") +
                  " a body, and none is given: it falls with nothing to hold it; give --body"}};
   }
   if (start.draped) {
-    if (garment.body_sha256.empty() || garment.body_sha256 == start.skin_sha256) return {};
+    if (garment.body_sha256.empty() || garment.body_sha256 == start.skin_sha256)
+      return {};
     return {{"garment.other-body"_id, file + " hung on another body than " + body +
                                           ", which it may lie inside of; retarget-garment --to " +
                                           body + " places it"}};
@@ -30,7 +32,8 @@ std::vector<Message> body_findings(const Garment& garment, const Start& start) {
     return {
         {"garment.panels-flat"_id, "the panels of " + file + " lie flat, around no body" + place}};
   const std::string& around = garment.panels.body_sha256;
-  if (around.empty() || around == start.skin_sha256) return {};
+  if (around.empty() || around == start.skin_sha256)
+    return {};
   return {{"garment.other-body"_id,
            "the panels of " + file + " were placed around another body than " + body + place}};
 }

@@ -65,7 +65,8 @@ struct Value {
   double warp = NAN, weft = NAN;
   double bias = NAN; ///< at 45 degrees, where it was given as such
   double mean() const {
-    if (std::isnan(warp)) return weft;
+    if (std::isnan(warp))
+      return weft;
     return std::isnan(weft) ? warp : 0.5 * (warp + weft);
   }
   bool given() const { return !std::isnan(mean()); }
@@ -78,25 +79,32 @@ std::string trimmed(const std::string& text) {
 }
 
 std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : text)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 
 /// Of a column of a table with one property a row: warp, weft, bias, their mean; a space of others.
 char direction_of(const std::string& column) {
-  if (column == "warp") return '1';
-  if (column == "weft") return '2';
-  if (column == "bias") return '3';
+  if (column == "warp")
+    return '1';
+  if (column == "weft")
+    return '2';
+  if (column == "bias")
+    return '3';
   return column == "mean" || column == "value" ? 'm' : ' ';
 }
 
 std::vector<std::string> cells(const std::string& line) {
   char separator = ',';
-  if (line.find('\t') != std::string::npos) separator = '\t';
-  if (line.find(';') != std::string::npos) separator = ';';
+  if (line.find('\t') != std::string::npos)
+    separator = '\t';
+  if (line.find(';') != std::string::npos)
+    separator = ';';
   std::vector<std::string> out;
   std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, separator);) out.push_back(trimmed(cell));
+  for (std::string cell; std::getline(stream, cell, separator);)
+    out.push_back(trimmed(cell));
   return out;
 }
 
@@ -117,8 +125,10 @@ public:
         plain += c;
     std::string names;
     for (const Unit& u : UNITS) {
-      if (property != u.property) continue;
-      if (plain.empty() || plain == u.name) return u.factor;
+      if (property != u.property)
+        continue;
+      if (plain.empty() || plain == u.name)
+        return u.factor;
       names += (names.empty() ? "" : ", ") + std::string(u.name);
     }
     throw input_error("kes.malformed"_id, m_file, "line " + std::to_string(line),
@@ -151,7 +161,8 @@ Heading heading(const std::string& cell) {
   Heading h;
   const auto bracket = cell.find_first_of("([");
   std::string name = trimmed(cell.substr(0, bracket));
-  if (bracket != std::string::npos) h.unit = cell.substr(bracket);
+  if (bracket != std::string::npos)
+    h.unit = cell.substr(bracket);
   for (const auto& [ending, direction] : {std::pair{"-1", '1'},
                                           {"_1", '1'},
                                           {"-2", '2'},
@@ -168,12 +179,14 @@ Heading heading(const std::string& cell) {
                                           {"_bias", '3'},
                                           {"-bias", '3'}}) {
     const std::string end = ending;
-    if (name.size() <= end.size() || lower(name.substr(name.size() - end.size())) != end) continue;
+    if (name.size() <= end.size() || lower(name.substr(name.size() - end.size())) != end)
+      continue;
     h.direction = direction;
     name = trimmed(name.substr(0, name.size() - end.size()));
     break;
   }
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (char& c : name)
+    c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   h.property = name;
   return h;
 }
@@ -184,8 +197,10 @@ void put(Values& values, const Heading& h, double si) {
     v.bias = si;
     return;
   }
-  if (h.direction != '2') v.warp = si;
-  if (h.direction != '1') v.weft = si;
+  if (h.direction != '2')
+    v.warp = si;
+  if (h.direction != '1')
+    v.weft = si;
 }
 
 /// B from bending lengths, where it was not measured itself: W g C^3, with C = L / 2 of an
@@ -194,12 +209,14 @@ void bend_by_lengths(Values& values) {
   const double weight = values["W"].mean() * units::GRAVITY;
   auto fill = [&](double Value::*direction) {
     double length = values["C"].*direction;
-    if (std::isnan(length)) length = 0.5 * (values["L"].*direction);
+    if (std::isnan(length))
+      length = 0.5 * (values["L"].*direction);
     if (std::isnan(values["B"].*direction))
       values["B"].*direction = weight * length * length * length;
   };
   const bool bias_was_measured = !std::isnan(values["B"].bias);
-  for (double Value::*direction : {&Value::warp, &Value::weft, &Value::bias}) fill(direction);
+  for (double Value::*direction : {&Value::warp, &Value::weft, &Value::bias})
+    fill(direction);
   Value& b = values["B"];
   if (!bias_was_measured && b.bias > 0 && b.warp > 0 && b.weft > 0)
     b.bias = std::max(cloth::bias_of_strip(b.warp, b.weft, b.bias),
@@ -210,10 +227,12 @@ void bend_by_lengths(Values& values) {
 void set_bending(const std::string& file, const Value& b, Material& m) {
   m.bend_n_m = b.mean();
   const bool differ = b.warp > 0 && b.weft > 0 && b.warp != b.weft;
-  if (!differ && !(b.bias > 0)) return;
+  if (!differ && !(b.bias > 0))
+    return;
   m.bend_warp_n_m = std::isnan(b.warp) ? b.weft : b.warp;
   m.bend_weft_n_m = std::isnan(b.weft) ? b.warp : b.weft;
-  if (!(b.bias > 0)) return;
+  if (!(b.bias > 0))
+    return;
   m.bend_bias_n_m = b.bias;
   if (b.bias < cloth::least_bias_rigidity(m.bend_warp_n_m, m.bend_weft_n_m))
     throw input_error("material.bias-too-soft"_id, file, "",
@@ -230,7 +249,8 @@ double stretch(double emt, double lt, const Values& values, double Value::*direc
   double nearest = 1e300, stiffness = 0;
   for (const auto& [name, load] : {std::pair{"E5", 5.0}, {"E20", 20.0}, {"E100", 100.0}}) {
     const auto found = values.find(name);
-    if (found == values.end() || !(found->second.*direction > 0)) continue;
+    if (found == values.end() || !(found->second.*direction > 0))
+      continue;
     const double off = std::abs(std::log(load * GF_CM / WEARING_LOAD));
     if (off < nearest) {
       nearest = off;
@@ -255,7 +275,8 @@ Material read_kes(const std::string& path) {
   int number = 0;
   for (std::string line; std::getline(text, line);) {
     ++number;
-    if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
+    if (trimmed(line).empty() || trimmed(line)[0] == '#')
+      continue;
     const std::vector<std::string> row = cells(line);
     if (header.empty()) {
       header = row;
@@ -264,20 +285,24 @@ Material read_kes(const std::string& path) {
       continue;
     }
     if (const Heading h = heading(row[0]); !wide) { // one property per row
-      if (!known(h.property)) continue;             // one that is not used
+      if (!known(h.property))
+        continue; // one that is not used
       std::string unit = h.unit;
       for (std::size_t c = 1; c < row.size() && c < header.size(); ++c)
-        if (lower(header[c]) == "unit") unit = row[c];
+        if (lower(header[c]) == "unit")
+          unit = row[c];
       for (std::size_t c = 1; c < row.size() && c < header.size(); ++c) {
         const char d = direction_of(lower(header[c]));
-        if (d == ' ' || row[c].empty() || (d == 'm' && values.count(h.property))) continue;
+        if (d == ' ' || row[c].empty() || (d == 'm' && values.count(h.property)))
+          continue;
         put(values, {h.property, unit, d},
             reader.number(number, row[c]) * reader.factor(number, h.property, unit));
       }
       continue;
     }
     names.push_back(row[0]); // one fabric per row
-    if (!wanted.empty() && row[0] != wanted) continue;
+    if (!wanted.empty() && row[0] != wanted)
+      continue;
     if (!chosen.empty())
       throw input_error("kes.which-fabric"_id, file, "line " + std::to_string(number),
                         "the file has more than one fabric", "pick one with " + file + "#NAME");
@@ -290,7 +315,8 @@ Material read_kes(const std::string& path) {
   }
   if (!wanted.empty() && chosen.empty()) {
     std::string list;
-    for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;
+    for (const std::string& n : names)
+      list += (list.empty() ? "" : ", ") + n;
     throw input_error("kes.which-fabric"_id, file, "fabric \"" + wanted + "\"",
                       "is not in the file", list.empty() ? "" : "there are " + list);
   }
@@ -304,15 +330,22 @@ Material read_kes(const std::string& path) {
   m.name = chosen.empty() ? io::file_name(file) : chosen;
   m.density_kg_m2 = values["W"].mean();
   set_bending(file, values["B"], m);
-  if (values["G"].given()) m.shear_n_m = values["G"].mean();
-  else if (values["EB5"].mean() > 0) m.shear_n_m = FAST_SHEAR / (100 * values["EB5"].mean());
+  if (values["G"].given())
+    m.shear_n_m = values["G"].mean();
+  else if (values["EB5"].mean() > 0)
+    m.shear_n_m = FAST_SHEAR / (100 * values["EB5"].mean());
   const double warp = stretch(values["EMT"].warp, values["LT"].warp, values, &Value::warp);
   const double weft = stretch(values["EMT"].weft, values["LT"].weft, values, &Value::weft);
-  if (warp > 0) m.stretch_warp_n_m = warp;
-  if (weft > 0) m.stretch_weft_n_m = weft;
-  if (values["MIU"].given()) m.friction_self = values["MIU"].mean();
-  if (values["T0"].given()) m.thickness_m = values["T0"].mean();
-  else if (values["T"].given()) m.thickness_m = values["T"].mean();
+  if (warp > 0)
+    m.stretch_warp_n_m = warp;
+  if (weft > 0)
+    m.stretch_weft_n_m = weft;
+  if (values["MIU"].given())
+    m.friction_self = values["MIU"].mean();
+  if (values["T0"].given())
+    m.thickness_m = values["T0"].mean();
+  else if (values["T"].given())
+    m.thickness_m = values["T"].mean();
   m.source = "measured: " + io::file_name(file);
   return m;
 }

@@ -39,7 +39,8 @@ constexpr MaterialKey DIRECTION_KEYS[] = {
 constexpr MaterialKey SOFT_RADIUS = {"bend_soft_radius_m", &Material::bend_soft_radius_m, 1e-4, 10};
 
 void read_key(const io::Node& node, const MaterialKey& key, Material& m) {
-  if (!node.has(key.name)) return;
+  if (!node.has(key.name))
+    return;
   m.*key.field = node.at(key.name).number();
   if (m.*key.field < key.low || m.*key.field > key.high)
     node.at(key.name).fail("json.out-of-range"_id, "is out of range",
@@ -61,12 +62,14 @@ Material named_material(const io::Node& node) {
 void settle_bending(const io::Node& node, Material& m) {
   const bool directions =
       node.has("bend_warp_n_m") || node.has("bend_weft_n_m") || node.has("bend_bias_n_m");
-  if (node.has("bend_n_m") && !directions) m.bend_warp_n_m = m.bend_weft_n_m = m.bend_bias_n_m = 0;
+  if (node.has("bend_n_m") && !directions)
+    m.bend_warp_n_m = m.bend_weft_n_m = m.bend_bias_n_m = 0;
   if (directions && !node.has("bend_n_m")) {
     const cloth::PlateRigidity plate = cloth::plate_rigidity(m);
     m.bend_n_m = 0.5 * (plate.warp + plate.weft);
   }
-  if (!(m.bend_bias_n_m > 0)) return;
+  if (!(m.bend_bias_n_m > 0))
+    return;
   const cloth::PlateRigidity plate = cloth::plate_rigidity(m);
   const double least = cloth::least_bias_rigidity(plate.warp, plate.weft);
   if (m.bend_bias_n_m < (1 - 1e-9) * least)
@@ -87,8 +90,10 @@ std::vector<ClothLayer> read_layers(const io::Node& node) {
 
 Material material_object(const io::Node& node) {
   Material m = material_preset(node.string("preset", material_presets().front().name));
-  for (const MaterialKey& key : MATERIAL_KEYS) read_key(node, key, m);
-  for (const MaterialKey& key : DIRECTION_KEYS) read_key(node, key, m);
+  for (const MaterialKey& key : MATERIAL_KEYS)
+    read_key(node, key, m);
+  for (const MaterialKey& key : DIRECTION_KEYS)
+    read_key(node, key, m);
   read_key(node, SOFT_RADIUS, m);
   settle_bending(node, m);
   m.source = node.string("source", m.source);
@@ -113,7 +118,8 @@ ClothLayer read_cloth_layer(const io::Node& node) {
 }
 
 Material read_material(const io::Node& node) {
-  if (node.is_string()) return named_material(node);
+  if (node.is_string())
+    return named_material(node);
   node.allow_only({"preset", "density_kg_m2", "stretch_warp_n_m", "stretch_weft_n_m", "shear_n_m",
                    "bend_n_m", "bend_warp_n_m", "bend_weft_n_m", "bend_bias_n_m", "bend_soft_share",
                    "bend_soft_radius_m", "friction_body", "friction_self", "damping_s",
@@ -156,18 +162,23 @@ Material read_material_file(const std::string& path) {
 io::Json material_json(const Material& material) {
   io::Json j;
   j["name"] = material.name;
-  for (const MaterialKey& key : MATERIAL_KEYS) j[key.name] = material.*key.field;
+  for (const MaterialKey& key : MATERIAL_KEYS)
+    j[key.name] = material.*key.field;
   for (const MaterialKey& key : DIRECTION_KEYS)
-    if (material.*key.field > 0) j[key.name] = material.*key.field;
-  if (material.bend_soft_share > 0) j[SOFT_RADIUS.name] = material.bend_soft_radius_m;
+    if (material.*key.field > 0)
+      j[key.name] = material.*key.field;
+  if (material.bend_soft_share > 0)
+    j[SOFT_RADIUS.name] = material.bend_soft_radius_m;
   j["source"] = material.source;
   return j;
 }
 
 Material material_from(const std::string& name_or_path) {
   const std::string file = name_or_path.substr(0, name_or_path.rfind('#'));
-  if (io::ending_of(file) == ".csv") return read_kes(name_or_path);
-  if (io::ending_of(name_or_path) == ".json") return read_material_file(name_or_path);
+  if (io::ending_of(file) == ".csv")
+    return read_kes(name_or_path);
+  if (io::ending_of(name_or_path) == ".json")
+    return read_material_file(name_or_path);
   return material_preset(name_or_path);
 }
 

@@ -166,7 +166,8 @@ const std::vector<Material>& material_presets() {
     const std::size_t n = all.size();
     for (const Directions& d : DIRECTIONS)
       for (std::size_t k = 0; k < n; ++k)
-        if (all[k].name == d.preset) all.push_back(by_direction(all[k], d));
+        if (all[k].name == d.preset)
+          all.push_back(by_direction(all[k], d));
     return all;
   }();
   return presets;
@@ -176,7 +177,8 @@ const Material& material_preset(const std::string& name) {
   std::string names;
   std::vector<std::string> words;
   for (const Material& m : material_presets()) {
-    if (m.name == name) return m;
+    if (m.name == name)
+      return m;
     words.push_back(m.name);
     names += (names.empty() ? "" : ", ") + m.name;
   }
@@ -187,7 +189,8 @@ const Material& material_preset(const std::string& name) {
 const Material& material_of(const Garment& garment, const std::string& name) {
   if (const auto found = garment.materials.find(name); found != garment.materials.end())
     return found->second;
-  if (!name.empty()) return material_preset(name);
+  if (!name.empty())
+    return material_preset(name);
   return material_presets().front();
 }
 
@@ -199,7 +202,8 @@ std::string main_material(const Garment& garment) {
     const std::string& name = own != garment.materials.end() ? own->second.name : panel.material;
     triangles[name.empty() ? material_presets().front().name : name] += panel.n_triangles;
   }
-  if (triangles.empty()) return {};
+  if (triangles.empty())
+    return {};
   return std::max_element(triangles.begin(), triangles.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;

@@ -34,7 +34,8 @@ void weld(Garment& garment, const std::vector<Vec3>& position) {
     sum[garment.particle_of[v]] += position[v];
     ++count[garment.particle_of[v]];
   }
-  for (int i = 0; i < n; ++i) sum[i] /= count[i];
+  for (int i = 0; i < n; ++i)
+    sum[i] /= count[i];
   garment.position = std::move(sum);
 }
 
@@ -43,7 +44,8 @@ std::vector<std::array<int, 2>> open_stitches(const Garment& garment) {
   for (const pattern::MeshSeam& seam : garment.panels.seams)
     for (std::size_t k = 0; k < seam.a.size() && !seam.open; ++k) {
       const int a = garment.particle_of[seam.a[k]], b = garment.particle_of[seam.b[k]];
-      if (a != b) stitches.push_back({std::min(a, b), std::max(a, b)});
+      if (a != b)
+        stitches.push_back({std::min(a, b), std::max(a, b)});
     }
   std::sort(stitches.begin(), stitches.end());
   stitches.erase(std::unique(stitches.begin(), stitches.end()), stitches.end());
@@ -53,9 +55,11 @@ std::vector<std::array<int, 2>> open_stitches(const Garment& garment) {
 std::vector<int> seam_classes(const Garment& garment) {
   const std::vector<int> classes = weld_classes(garment.panels);
   std::vector<int> members(classes.size(), 0), of(garment.position.size(), -1);
-  for (int c : classes) ++members[c];
+  for (int c : classes)
+    ++members[c];
   for (std::size_t v = 0; v < classes.size(); ++v)
-    if (members[classes[v]] > 1) of[garment.particle_of[v]] = classes[v];
+    if (members[classes[v]] > 1)
+      of[garment.particle_of[v]] = classes[v];
   return of;
 }
 
@@ -103,13 +107,15 @@ void ease_gathers(const Garment& garment, const std::vector<std::vector<Gather>>
   const pattern::PanelMesh& panels = garment.panels;
   const SpringFinder spring(mesh);
   for (std::size_t p = 0; p < gathers.size(); ++p) {
-    if (gathers[p].empty()) continue;
+    if (gathers[p].empty())
+      continue;
     const pattern::PanelInfo& panel = panels.panels[p];
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f)
       for (std::size_t k = 0; k < 3; ++k) {
         const int v = panels.triangles[f][k], w = panels.triangles[f][(k + 1) % 3];
         const long at = spring(garment.particle_of[v], garment.particle_of[w]);
-        if (at < 0 || done[at]) continue;
+        if (at < 0 || done[at])
+          continue;
         done[at] = 1;
         const Vec2 middle = 0.5 * (panels.pattern[v] + panels.pattern[w]);
         const Gather* nearest = nullptr;
@@ -121,7 +127,8 @@ void ease_gathers(const Garment& garment, const std::vector<std::vector<Gather>>
           }
         const Vec2 along = nearest->to - nearest->from;
         const double near = 1 - least / (GATHER_REACH * along.norm());
-        if (near <= 0) continue;
+        if (near <= 0)
+          continue;
         const Vec2 edge = panels.pattern[w] - panels.pattern[v], unit = along.normalized();
         const double share = 1 - near * (1 - nearest->share), level = edge.dot(unit) * share,
                      across = edge.x() * unit.y() - edge.y() * unit.x();
@@ -140,7 +147,8 @@ static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
   std::vector<std::vector<Gather>> gathers(garment.panels.panels.size());
   const auto panel_of = [&](int v) {
     std::size_t p = 0;
-    while (v >= garment.panels.panels[p].first_vertex + garment.panels.panels[p].n_vertices) ++p;
+    while (v >= garment.panels.panels[p].first_vertex + garment.panels.panels[p].n_vertices)
+      ++p;
     return p;
   };
   std::vector<char> done(mesh.springs.size(), 0);
@@ -149,7 +157,8 @@ static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
     for (std::size_t k = 0; k + 1 < seam.a.size() && !seam.open; ++k) {
       const long a = spring(garment.particle_of[seam.a[k]], garment.particle_of[seam.a[k + 1]]),
                  b = spring(garment.particle_of[seam.b[k]], garment.particle_of[seam.b[k + 1]]);
-      if (a < 0 || b < 0) continue;
+      if (a < 0 || b < 0)
+        continue;
       const double length_a = (pattern[seam.a[k + 1]] - pattern[seam.a[k]]).norm(),
                    length_b = (pattern[seam.b[k + 1]] - pattern[seam.b[k]]).norm();
       const double shorter = std::min(length_a, length_b);
@@ -161,26 +170,29 @@ static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
         mesh.springs[b].rest_length *= shorter / length_b;
       }
       done[a] = done[b] = 1;
-      if (shorter >= GATHERED * std::max(length_a, length_b)) continue;
+      if (shorter >= GATHERED * std::max(length_a, length_b))
+        continue;
       const auto& longer = length_a > length_b ? seam.a : seam.b;
       gathers[panel_of(longer[k])].push_back(
           {pattern[longer[k]], pattern[longer[k + 1]], shorter / std::max(length_a, length_b)});
       any = true;
     }
-  if (any) ease_gathers(garment, gathers, done, mesh);
+  if (any)
+    ease_gathers(garment, gathers, done, mesh);
 }
 
 /// A pleat is pressed: along its folds cloth does not spring back to flat. Where the scene has
 /// creases, these say how folds are pressed.
 static void press_pleats(const Garment& garment, cloth::ClothMesh& mesh) {
-  if (!garment.scene.creases.empty()) return;
+  if (!garment.scene.creases.empty())
+    return;
   std::vector<std::array<int, 2>> folds;
   for (const auto& [a, b] : pattern::pleat_edges(garment.panels)) {
-    const int i = garment.particle_of[static_cast<std::size_t>(a)],
-              j = garment.particle_of[static_cast<std::size_t>(b)];
+    const int i = garment.particle_of[a], j = garment.particle_of[b];
     folds.push_back({std::min(i, j), std::max(i, j)});
   }
-  if (folds.empty()) return;
+  if (folds.empty())
+    return;
   std::sort(folds.begin(), folds.end());
   for (cloth::Hinge& hinge : mesh.hinges)
     if (std::binary_search(folds.begin(), folds.end(),

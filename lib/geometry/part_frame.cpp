@@ -21,7 +21,8 @@ PartFrame make_part_frame(const Vec3& lower, const Vec3& upper, const Vec3& forw
   PartFrame frame{lower, upper, Vec3::UnitZ(), mirrored};
   const Vec3 a = frame.axis();
   Vec3 zero = forward - forward.dot(a) * a;
-  if (zero.norm() < 1e-6) zero = Vec3::UnitY() - a.y() * a;
+  if (zero.norm() < 1e-6)
+    zero = Vec3::UnitY() - a.y() * a;
   frame.theta_zero = zero.normalized();
   return frame;
 }

@@ -15,7 +15,8 @@ Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to) {
 Mat3 nearest_rotation(const Mat3& covariance) {
   const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 v = svd.matrixV();
-  if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
+  if ((v * svd.matrixU().transpose()).determinant() < 0)
+    v.col(2) *= -1;
   return v * svd.matrixU().transpose();
 }
 

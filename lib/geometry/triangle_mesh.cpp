@@ -8,7 +8,8 @@ namespace sloper {
 
 Box3 bounding_box(const std::vector<Vec3>& points) {
   Box3 box;
-  for (const Vec3& p : points) box.add(p);
+  for (const Vec3& p : points)
+    box.add(p);
   return box;
 }
 
@@ -18,7 +19,8 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
     const Vec3* p[3] = {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]};
     Vec3 n = area_normal(*p[0], *p[1], *p[2]);
     const double length = n.norm();
-    if (length < 1e-300) continue;
+    if (length < 1e-300)
+      continue;
     n /= length;
     for (int k = 0; k < 3; ++k) {
       const Vec3 e1 = *p[(k + 1) % 3] - *p[k], e2 = *p[(k + 2) % 3] - *p[k];
@@ -27,7 +29,8 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   }
   for (Vec3& n : normals) {
     const double length = n.norm();
-    if (length > 1e-300) n /= length;
+    if (length > 1e-300)
+      n /= length;
   }
   return normals;
 }
@@ -66,7 +69,8 @@ std::vector<int> connected_components(std::size_t n_vertices,
                                       const std::vector<Triangle>& triangles) {
   DisjointSets joined(n_vertices);
   for (const Triangle& t : triangles)
-    for (int k = 1; k < 3; ++k) joined.unite(t[0], t[k]);
+    for (int k = 1; k < 3; ++k)
+      joined.unite(t[0], t[k]);
   return joined.numbers();
 }
 

@@ -30,8 +30,10 @@ struct Header {
 void write_all(int to, const void* data, std::size_t size) {
   for (const char* at = static_cast<const char*>(data); size > 0;) {
     const ssize_t n = ::write(to, at, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) ::_exit(1);
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n <= 0)
+      ::_exit(1);
     at += n;
     size -= static_cast<std::size_t>(n);
   }
@@ -40,8 +42,10 @@ void write_all(int to, const void* data, std::size_t size) {
 bool read_all(int from, void* data, std::size_t size) {
   for (char* at = static_cast<char*>(data); size > 0;) {
     const ssize_t n = ::read(from, at, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n <= 0)
+      return false;
     at += n;
     size -= static_cast<std::size_t>(n);
   }
@@ -53,7 +57,8 @@ void gather_nodes(const aiNode& node, const aiMatrix4x4& above,
                   std::vector<std::pair<const aiNode*, aiMatrix4x4>>& nodes) {
   nodes.emplace_back(&node, above * node.mTransformation);
   const aiMatrix4x4 own = nodes.back().second;
-  for (unsigned k = 0; k < node.mNumChildren; ++k) gather_nodes(*node.mChildren[k], own, nodes);
+  for (unsigned k = 0; k < node.mNumChildren; ++k)
+    gather_nodes(*node.mChildren[k], own, nodes);
 }
 
 /// Where the vertices of a mesh that hangs at a node with the transform `own` are in the scene. A
@@ -66,18 +71,22 @@ std::vector<aiVector3D> placed(const aiMesh& mesh, const aiMatrix4x4& own,
   for (unsigned b = 0; b < mesh.mNumBones; ++b) {
     const aiBone& bone = *mesh.mBones[b];
     const auto joint = joints.find(bone.mName.C_Str());
-    if (joint == joints.end()) continue;
+    if (joint == joints.end())
+      continue;
     const aiMatrix4x4 moves = joint->second * bone.mOffsetMatrix;
     for (unsigned k = 0; k < bone.mNumWeights; ++k) {
       const aiVertexWeight& of = bone.mWeights[k];
-      if (of.mVertexId >= mesh.mNumVertices) continue;
+      if (of.mVertexId >= mesh.mNumVertices)
+        continue;
       positions[of.mVertexId] += of.mWeight * (moves * mesh.mVertices[of.mVertexId]);
       weight[of.mVertexId] += of.mWeight;
     }
   }
   for (unsigned v = 0; v < mesh.mNumVertices; ++v)
-    if (weight[v] > 0) positions[v] /= weight[v];
-    else positions[v] = own * mesh.mVertices[v];
+    if (weight[v] > 0)
+      positions[v] /= weight[v];
+    else
+      positions[v] = own * mesh.mVertices[v];
   return positions;
 }
 
@@ -89,18 +98,21 @@ bool add_mesh(const aiMesh& part, const std::vector<aiVector3D>& positions, bool
   for (const aiVector3D& at : positions) {
     const std::array<double, 3> p{at.x, at.y, at.z};
     const auto [place, is_new] = known.emplace(p, static_cast<int>(mesh.positions.size()));
-    if (is_new) mesh.positions.emplace_back(p[0], p[1], p[2]);
+    if (is_new)
+      mesh.positions.emplace_back(p[0], p[1], p[2]);
     index.push_back(place->second);
   }
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
-    if (face.mNumIndices != 3) continue; // points and lines
+    if (face.mNumIndices != 3)
+      continue; // points and lines
     if (*std::max_element(face.mIndices, face.mIndices + 3) >= part.mNumVertices) {
       complaint = "face " + std::to_string(f) + " refers to a vertex that does not exist";
       return false;
     }
     Triangle t = {index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]};
-    if (mirrored) std::swap(t[1], t[2]);
+    if (mirrored)
+      std::swap(t[1], t[2]);
     mesh.triangles.push_back(t);
   }
   return true;
@@ -112,22 +124,27 @@ TriangleMesh import(const std::string& path, std::string& complaint) {
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (!scene || scene->mNumMeshes == 0 || !scene->mRootNode) {
     complaint = importer.GetErrorString();
-    if (complaint.empty()) complaint = "it holds no mesh";
+    if (complaint.empty())
+      complaint = "it holds no mesh";
     return mesh;
   }
   std::vector<std::pair<const aiNode*, aiMatrix4x4>> nodes;
   gather_nodes(*scene->mRootNode, aiMatrix4x4(), nodes);
   std::map<std::string, aiMatrix4x4> joints;
-  for (const auto& [node, own] : nodes) joints.emplace(node->mName.C_Str(), own);
+  for (const auto& [node, own] : nodes)
+    joints.emplace(node->mName.C_Str(), own);
   std::map<std::array<double, 3>, int> known;
   for (const auto& [node, own] : nodes)
     for (unsigned k = 0; k < node->mNumMeshes; ++k) {
-      if (node->mMeshes[k] >= scene->mNumMeshes) continue;
+      if (node->mMeshes[k] >= scene->mNumMeshes)
+        continue;
       const aiMesh& part = *scene->mMeshes[node->mMeshes[k]];
       const bool mirrored = part.mNumBones == 0 && aiMatrix4x4(own).Determinant() < 0;
-      if (!add_mesh(part, placed(part, own, joints), mirrored, known, mesh, complaint)) return mesh;
+      if (!add_mesh(part, placed(part, own, joints), mirrored, known, mesh, complaint))
+        return mesh;
     }
-  if (mesh.positions.empty()) complaint = "no node of its scene holds a mesh";
+  if (mesh.positions.empty())
+    complaint = "no node of its scene holds a mesh";
   return mesh;
 }
 

@@ -20,16 +20,19 @@ static std::string read_descriptor(int fd, const std::string& name) {
   if (fstat(fd, &info) == 0) {
     if (S_ISDIR(info.st_mode))
       throw input_error("file.is-folder"_id, name, "", "is a folder, not a file");
-    if (info.st_size > 0) bytes.reserve(static_cast<std::size_t>(info.st_size));
+    if (info.st_size > 0)
+      bytes.reserve(static_cast<std::size_t>(info.st_size));
   }
   char buffer[1 << 16];
   for (;;) {
     const ssize_t n = read(fd, buffer, sizeof buffer);
-    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EINTR)
+      continue;
     if (n < 0)
       throw input_error("file.cannot-read"_id, name, "",
                         std::string("cannot read: ") + std::strerror(errno));
-    if (n == 0) return bytes;
+    if (n == 0)
+      return bytes;
     bytes.append(buffer, static_cast<std::size_t>(n));
   }
 }
@@ -43,9 +46,11 @@ std::string read_file(const std::string& path) {
 }
 
 std::optional<std::string> read_file_if_there(const std::string& path) {
-  if (path == "-") return read_descriptor(STDIN_FILENO, "standard input");
+  if (path == "-")
+    return read_descriptor(STDIN_FILENO, "standard input");
   const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0 && (errno == ENOENT || errno == ENOTDIR)) return {};
+  if (fd < 0 && (errno == ENOENT || errno == ENOTDIR))
+    return {};
   if (fd < 0)
     throw input_error("file.cannot-open"_id, path, "",
                       std::string("cannot open: ") + std::strerror(errno), "check the path");
@@ -69,8 +74,10 @@ static Error write_error(const std::string& name, const std::string& what, int r
 static int write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n < 0)
+      return errno;
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
   return 0;
@@ -89,12 +96,14 @@ static int write_and_sync(int fd, std::string_view bytes) {
   int reason = write_all(fd, bytes);
   if (reason == 0 && fsync(fd) != 0 && errno != EINVAL && errno != EROFS)
     reason = errno; // some file systems cannot sync
-  if (close(fd) != 0 && reason == 0) reason = errno;
+  if (close(fd) != 0 && reason == 0)
+    reason = errno;
   return reason;
 }
 
 void write_file(const std::string& path, std::string_view bytes) {
-  if (path == "-") return write_into(STDOUT_FILENO, bytes, "standard output");
+  if (path == "-")
+    return write_into(STDOUT_FILENO, bytes, "standard output");
   struct stat info {};
   const bool exists = stat(path.c_str(), &info) == 0;
   if (exists && S_ISDIR(info.st_mode))
@@ -102,7 +111,8 @@ void write_file(const std::string& path, std::string_view bytes) {
                 "name a file");
   if (exists && !S_ISREG(info.st_mode)) {
     const int fd = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (fd < 0) throw write_error(path, "cannot write", errno);
+    if (fd < 0)
+      throw write_error(path, "cannot write", errno);
     try {
       write_into(fd, bytes, path);
     } catch (...) {

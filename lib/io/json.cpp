@@ -18,8 +18,10 @@ class DuplicateKeyCheck {
 public:
   explicit DuplicateKeyCheck(const std::string& name) : m_name(name) {}
   bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) m_keys.emplace_back();
-    else if (event == Json::parse_event_t::object_end) m_keys.pop_back();
+    if (event == Json::parse_event_t::object_start)
+      m_keys.emplace_back();
+    else if (event == Json::parse_event_t::object_end)
+      m_keys.pop_back();
     else if (event == Json::parse_event_t::key &&
              !m_keys.back().insert(parsed.get<std::string>()).second)
       throw input_error("json.duplicate-key"_id, m_name, "",
@@ -35,7 +37,8 @@ private:
 
 bool is_flat_array(const Json& value) {
   for (const Json& v : value)
-    if (v.is_structured()) return false;
+    if (v.is_structured())
+      return false;
   return true;
 }
 
@@ -56,12 +59,15 @@ void append_text(std::string& out, const Json& value, int indent, const std::str
     out += '[';
     std::size_t i = 0;
     for (const Json& v : value) {
-      if (i) out += flat ? ", " : ",";
-      if (!flat) out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ');
+      if (i)
+        out += flat ? ", " : ",";
+      if (!flat)
+        out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ');
       append_text(out, v, indent + 2, pointer + "/" + std::to_string(i));
       ++i;
     }
-    if (!flat && i) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
+    if (!flat && i)
+      out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
     out += ']';
     break;
   }
@@ -69,13 +75,15 @@ void append_text(std::string& out, const Json& value, int indent, const std::str
     out += '{';
     bool first = true;
     for (const auto& [key, v] : value.items()) {
-      if (!first) out += ',';
+      if (!first)
+        out += ',';
       first = false;
       out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ') +
              Json(key).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
       append_text(out, v, indent + 2, pointer + "/" + key);
     }
-    if (!first) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
+    if (!first)
+      out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
     out += '}';
     break;
   }
@@ -91,8 +99,10 @@ std::pair<std::string, std::size_t> word_at(const std::string& text, std::size_t
   };
   std::size_t begin = std::min(byte > 0 ? byte - 1 : 0, text.size());
   std::size_t end = begin;
-  while (begin > 0 && in_word(begin - 1)) --begin;
-  while (end < text.size() && in_word(end)) ++end;
+  while (begin > 0 && in_word(begin - 1))
+    --begin;
+  while (end < text.size() && in_word(end))
+    ++end;
   const std::size_t line_end = begin > 0 ? text.rfind('\n', begin - 1) : std::string::npos;
   return {text.substr(begin, end - begin),
           line_end == std::string::npos ? begin + 1 : begin - line_end};
@@ -102,7 +112,8 @@ std::pair<std::string, std::size_t> word_at(const std::string& text, std::size_t
 bool is_no_number(std::string word) {
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.erase(0, 1);
+  if (!word.empty() && (word[0] == '-' || word[0] == '+'))
+    word.erase(0, 1);
   return word == "nan" || word == "inf" || word == "infinity";
 }
 
@@ -116,7 +127,8 @@ Json parse_json(const std::string& text, const std::string& name) {
     value = Json::parse(text, DuplicateKeyCheck(name));
   } catch (const Json::parse_error& e) {
     std::size_t line = 1;
-    for (std::size_t i = 0; i + 1 < e.byte && i < text.size(); ++i) line += text[i] == '\n';
+    for (std::size_t i = 0; i + 1 < e.byte && i < text.size(); ++i)
+      line += text[i] == '\n';
     // Meshes lie beside their documents, and scans come before them: the commonest slip.
     for (const char* ending : {".obj", ".ply", ".stl", ".3ds", ".xyz"})
       if (name.size() > 4 && name.compare(name.size() - 4, 4, ending) == 0)
@@ -147,7 +159,8 @@ static std::string expected_document(const std::string& format) {
                                                         {"garment", "drape or retarget-garment"},
                                                         {"fit", "retarget-garment --fit"}};
   for (const auto& [name, maker] : makers)
-    if (format == name) return "expected a \"" + format + "\" document, as " + maker + " writes it";
+    if (format == name)
+      return "expected a \"" + format + "\" document, as " + maker + " writes it";
   return "expected a \"" + format + "\" document";
 }
 
@@ -202,15 +215,28 @@ void write_json(const std::string& path, const Json& document) {
 bool Node::has(const std::string& key) const {
   return m_value->is_object() && m_value->contains(key);
 }
-std::size_t Node::size() const { return m_value->size(); }
-bool Node::is_array() const { return m_value->is_array(); }
-bool Node::is_object() const { return m_value->is_object(); }
-bool Node::is_string() const { return m_value->is_string(); }
-bool Node::is_number() const { return m_value->is_number(); }
-bool Node::is_null() const { return m_value->is_null(); }
+std::size_t Node::size() const {
+  return m_value->size();
+}
+bool Node::is_array() const {
+  return m_value->is_array();
+}
+bool Node::is_object() const {
+  return m_value->is_object();
+}
+bool Node::is_string() const {
+  return m_value->is_string();
+}
+bool Node::is_number() const {
+  return m_value->is_number();
+}
+bool Node::is_null() const {
+  return m_value->is_null();
+}
 
 Node Node::at(const std::string& key) const {
-  if (!m_value->is_object()) fail("json.wrong-type"_id, "expected an object");
+  if (!m_value->is_object())
+    fail("json.wrong-type"_id, "expected an object");
   const auto found = m_value->find(key);
   if (found == m_value->end())
     fail("json.missing-key"_id, "\"" + key + "\" is missing",
@@ -219,16 +245,19 @@ Node Node::at(const std::string& key) const {
 }
 
 Node Node::at(std::size_t index) const {
-  if (!m_value->is_array()) fail("json.wrong-type"_id, "expected an array");
+  if (!m_value->is_array())
+    fail("json.wrong-type"_id, "expected an array");
   if (index >= m_value->size())
     fail("json.wrong-count"_id, "has only " + std::to_string(m_value->size()) + " items");
   return {(*m_value)[index], m_file, m_pointer + "/" + std::to_string(index)};
 }
 
 double Node::number() const {
-  if (!m_value->is_number()) fail("json.wrong-type"_id, "expected a number");
+  if (!m_value->is_number())
+    fail("json.wrong-type"_id, "expected a number");
   const double x = m_value->get<double>();
-  if (!std::isfinite(x)) fail("json.not-finite"_id, "the number is not finite");
+  if (!std::isfinite(x))
+    fail("json.not-finite"_id, "the number is not finite");
   return x;
 }
 
@@ -240,12 +269,14 @@ int Node::integer() const {
 }
 
 bool Node::boolean() const {
-  if (!m_value->is_boolean()) fail("json.wrong-type"_id, "expected true or false");
+  if (!m_value->is_boolean())
+    fail("json.wrong-type"_id, "expected true or false");
   return m_value->get<bool>();
 }
 
 std::string Node::string() const {
-  if (!m_value->is_string()) fail("json.wrong-type"_id, "expected a text");
+  if (!m_value->is_string())
+    fail("json.wrong-type"_id, "expected a text");
   return m_value->get<std::string>();
 }
 
@@ -275,16 +306,19 @@ Vec3 Node::vec3() const {
 }
 
 std::vector<std::string> Node::keys() const {
-  if (!m_value->is_object()) fail("json.wrong-type"_id, "expected an object");
+  if (!m_value->is_object())
+    fail("json.wrong-type"_id, "expected an object");
   std::vector<std::string> keys;
-  for (const auto& item : m_value->items()) keys.push_back(item.key());
+  for (const auto& item : m_value->items())
+    keys.push_back(item.key());
   return keys;
 }
 
 void Node::allow_only(std::initializer_list<const char*> allowed) const {
   const std::vector<std::string> words(allowed.begin(), allowed.end());
   for (const std::string& key : keys()) {
-    if (std::find(words.begin(), words.end(), key) != words.end()) continue;
+    if (std::find(words.begin(), words.end(), key) != words.end())
+      continue;
     fail("json.unknown-key"_id, "unknown key \"" + key + "\"" + did_you_mean(key, words, "\""));
   }
 }
@@ -293,8 +327,12 @@ void Node::fail(MessageId id, const std::string& fact, const std::string& next_s
   throw input_error(id, m_file, m_pointer.empty() ? "/" : m_pointer, fact, next_step);
 }
 
-Json to_json(const Vec2& v) { return Json::array({v.x(), v.y()}); }
-Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json to_json(const Vec2& v) {
+  return Json::array({v.x(), v.y()});
+}
+Json to_json(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
 
 std::string mesh_path_beside(const std::string& path) {
   const std::string ending = ".json";
@@ -313,12 +351,14 @@ std::string ending_of(const std::string& path) {
   const std::string name = file_name(path);
   const std::size_t dot = name.rfind('.');
   std::string ending = dot == std::string::npos ? "" : name.substr(dot);
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : ending)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending;
 }
 
 std::string path_beside(const std::string& document_path, const std::string& name) {
-  if (!name.empty() && name[0] == '/') return name;
+  if (!name.empty() && name[0] == '/')
+    return name;
   const auto slash = document_path.rfind('/');
   return slash == std::string::npos ? name : document_path.substr(0, slash + 1) + name;
 }

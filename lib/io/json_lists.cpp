@@ -6,7 +6,8 @@ namespace sloper::io {
 Json flat_points(const std::vector<Vec3>& points) {
   Json out = Json::array();
   for (const Vec3& p : points)
-    for (int k = 0; k < 3; ++k) out.push_back(p[k]);
+    for (int k = 0; k < 3; ++k)
+      out.push_back(p[k]);
   return out;
 }
 
@@ -21,19 +22,22 @@ std::vector<Vec3> read_flat_points(const Node& node) {
 
 std::vector<double> read_numbers(const Node& node) {
   std::vector<double> list(node.size());
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = node.at(i).number();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    list[i] = node.at(i).number();
   return list;
 }
 
 std::vector<int> read_integers(const Node& node) {
   std::vector<int> list(node.size());
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = node.at(i).integer();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    list[i] = node.at(i).integer();
   return list;
 }
 
 std::vector<std::string> read_strings(const Node& node) {
   std::vector<std::string> list(node.size());
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = node.at(i).string();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    list[i] = node.at(i).string();
   return list;
 }
 
@@ -44,12 +48,14 @@ void put_findings(Json& document, const std::vector<Message>& findings) {
     ids.push_back(finding.id);
   }
   document["findings"] = texts;
-  if (!findings.empty()) document["finding_ids"] = ids;
+  if (!findings.empty())
+    document["finding_ids"] = ids;
 }
 
 std::vector<Message> read_findings(const Node& document) {
   std::vector<Message> findings;
-  if (!document.has("findings")) return findings;
+  if (!document.has("findings"))
+    return findings;
   const Node texts = document.at("findings");
   const bool has_ids = document.has("finding_ids");
   for (std::size_t k = 0; k < texts.size(); ++k) {

@@ -14,9 +14,11 @@ namespace {
 
 std::string mesh_format_of(const std::string& path) {
   std::string ending = ending_of(path);
-  if (!ending.empty()) ending.erase(0, 1);
+  if (!ending.empty())
+    ending.erase(0, 1);
   for (const char* known : {"obj", "ply", "glb"})
-    if (ending == known) return ending;
+    if (ending == known)
+      return ending;
   return {};
 }
 
@@ -33,9 +35,11 @@ std::vector<std::string> textures_of(const std::string& text) {
                         line.rfind("disp", 0) == 0 || line.rfind("norm", 0) == 0 ||
                         line.rfind("refl", 0) == 0 || line.rfind("decal", 0) == 0;
     const std::size_t space = line.find_last_of(" \t");
-    if (!is_map || space == std::string::npos) continue;
+    if (!is_map || space == std::string::npos)
+      continue;
     const std::string name = line.substr(space + 1);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
   }
   return names;
 }
@@ -48,7 +52,8 @@ std::vector<std::string> copy_companions(const MeshFile& file, const std::string
   std::error_code error;
   const fs::path from = fs::absolute(file.name, error).parent_path(),
                  into = fs::absolute(to, error).parent_path();
-  if (fs::equivalent(from, into, error)) return left;
+  if (fs::equivalent(from, into, error))
+    return left;
   std::vector<std::string> names = file.companions;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const fs::path name(names[i]);
@@ -64,21 +69,28 @@ std::vector<std::string> copy_companions(const MeshFile& file, const std::string
       continue;
     }
     if (ending_of(names[i]) == ".mtl")
-      for (const std::string& texture : textures_of(*bytes)) names.push_back(texture);
-    if (fs::exists(into / name, error)) continue;
+      for (const std::string& texture : textures_of(*bytes))
+        names.push_back(texture);
+    if (fs::exists(into / name, error))
+      continue;
     fs::create_directories((into / name).parent_path(), error);
     write_file((into / name).string(), *bytes);
   }
   return left;
 }
 
-bool is_mesh_file(const std::string& path) { return !mesh_format_of(path).empty(); }
+bool is_mesh_file(const std::string& path) {
+  return !mesh_format_of(path).empty();
+}
 
 MeshFile parse_mesh_file(std::string bytes, const std::string& format, const std::string& name) {
   MeshFile file;
-  if (format == "obj") file = parse_obj_mesh(std::move(bytes), name);
-  else if (format == "ply") file = parse_ply_mesh(std::move(bytes), name);
-  else if (format == "glb") file = parse_glb_mesh(std::move(bytes), name);
+  if (format == "obj")
+    file = parse_obj_mesh(std::move(bytes), name);
+  else if (format == "ply")
+    file = parse_ply_mesh(std::move(bytes), name);
+  else if (format == "glb")
+    file = parse_glb_mesh(std::move(bytes), name);
   else
     throw Error(ErrorKind::INTERNAL, "general.internal"_id, name, "",
                 "no reader for \"" + format + "\"");
@@ -115,8 +127,10 @@ std::string moved_mesh_file(const MeshFile& file, const std::vector<Vec3>& posit
   if (positions.size() != file.positions.size() || turned.size() != positions.size())
     throw Error(ErrorKind::INTERNAL, "general.internal"_id, file.name, "",
                 "positions of another mesh");
-  if (file.format == "obj") return moved_obj_mesh(file, positions, turned);
-  if (file.format == "ply") return moved_ply_mesh(file, positions, turned);
+  if (file.format == "obj")
+    return moved_obj_mesh(file, positions, turned);
+  if (file.format == "ply")
+    return moved_ply_mesh(file, positions, turned);
   return moved_glb_mesh(file, positions, turned);
 }
 

@@ -44,7 +44,8 @@ std::uint32_t u32(const std::string& bytes, std::size_t at) {
 class Glb {
 public:
   Glb(const std::string& bytes, const std::string& name) : m_name(name) {
-    if (bytes.size() < 20 || u32(bytes, 0) != GLB_MAGIC) fail("header", "is not a binary glTF");
+    if (bytes.size() < 20 || u32(bytes, 0) != GLB_MAGIC)
+      fail("header", "is not a binary glTF");
     if (u32(bytes, 4) != 2)
       fail("header", "is glTF of version " + std::to_string(u32(bytes, 4)), "write it as glTF 2.0");
     std::size_t at = 12;
@@ -122,8 +123,10 @@ public:
       std::memcpy(&x, at + static_cast<std::size_t>(k) * sizeof x, sizeof x);
       return x;
     };
-    if (n.component == BYTE) return as(std::uint8_t{});
-    if (n.component == SHORT) return as(std::uint16_t{});
+    if (n.component == BYTE)
+      return as(std::uint8_t{});
+    if (n.component == SHORT)
+      return as(std::uint16_t{});
     return n.component == INT ? static_cast<double>(as(std::uint32_t{}))
                               : static_cast<double>(as(float{}));
   }
@@ -137,7 +140,8 @@ public:
   /// Calls visit(mesh, place in the scene, node) for each mesh of the scene.
   void visit_meshes(const std::function<void(int, const Mat4&, const Node&)>& visit) const {
     const Node root = this->root();
-    if (!root.has("nodes")) fail("", "has no nodes");
+    if (!root.has("nodes"))
+      fail("", "has no nodes");
     std::vector<int> roots;
     if (root.has("scenes") && root.at("scenes").size() > 0) {
       const Node scene =
@@ -152,10 +156,12 @@ public:
           for (std::size_t k = 0; k < root.at("nodes").at(i).at("children").size(); ++k)
             below.insert(root.at("nodes").at(i).at("children").at(k).integer());
       for (std::size_t i = 0; i < root.at("nodes").size(); ++i)
-        if (!below.count(static_cast<int>(i))) roots.push_back(static_cast<int>(i));
+        if (!below.count(static_cast<int>(i)))
+          roots.push_back(static_cast<int>(i));
     }
     std::set<int> met;
-    for (const int r : roots) visit_node(r, Mat4::Identity(), 0, met, visit);
+    for (const int r : roots)
+      visit_node(r, Mat4::Identity(), 0, met, visit);
   }
 
   Node entry(const char* list, int index) const {
@@ -173,7 +179,8 @@ public:
 private:
   static std::size_t size_of(const Node& node) {
     const int n = node.integer();
-    if (n < 0) node.fail("import.malformed"_id, "is negative");
+    if (n < 0)
+      node.fail("import.malformed"_id, "is negative");
     return static_cast<std::size_t>(n);
   }
   static std::size_t size_of_component(const Node& type) {
@@ -193,7 +200,8 @@ private:
 
   void refuse_extensions() const {
     const Node root = this->root();
-    if (!root.has("extensionsRequired")) return;
+    if (!root.has("extensionsRequired"))
+      return;
     for (std::size_t i = 0; i < root.at("extensionsRequired").size(); ++i) {
       const std::string name = root.at("extensionsRequired").at(i).string();
       if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" ||
@@ -210,10 +218,13 @@ private:
     const Node node = entry("nodes", index);
     if (!met.insert(index).second)
       node.fail("import.malformed"_id, "is met twice: the nodes are no tree");
-    if (depth > DEEPEST) node.fail("import.malformed"_id, "lies below more than 1,000 others");
+    if (depth > DEEPEST)
+      node.fail("import.malformed"_id, "lies below more than 1,000 others");
     const Mat4 place = above * transform_of(node);
-    if (node.has("mesh")) visit(node.at("mesh").integer(), place, node);
-    if (!node.has("children")) return;
+    if (node.has("mesh"))
+      visit(node.at("mesh").integer(), place, node);
+    if (!node.has("children"))
+      return;
     for (std::size_t k = 0; k < node.at("children").size(); ++k)
       visit_node(node.at("children").at(k).integer(), place, depth + 1, met, visit);
   }
@@ -253,7 +264,8 @@ private:
 std::vector<int> corners_of(const Glb& glb, const Node& primitive, std::size_t n_vertices) {
   std::vector<int> corners;
   if (!primitive.has("indices")) {
-    for (std::size_t i = 0; i < n_vertices; ++i) corners.push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < n_vertices; ++i)
+      corners.push_back(static_cast<int>(i));
     return corners;
   }
   const Numbers n = glb.numbers(primitive.at("indices").integer(), "SCALAR", 1);
@@ -291,7 +303,8 @@ std::vector<GlbVertices> read_glb(const Glb& glb, MeshFile* file) {
     for (std::size_t p = 0; p < mesh.at("primitives").size(); ++p) {
       const Node primitive = mesh.at("primitives").at(p);
       const int mode = primitive.integer("mode", TRIANGLES);
-      if (mode < TRIANGLES) continue; // points and lines
+      if (mode < TRIANGLES)
+        continue; // points and lines
       if (primitive.has("targets") && file)
         file->findings.push_back("mesh " + std::to_string(mesh_index) +
                                  " has morph targets, which are left as they are");
@@ -314,12 +327,14 @@ std::vector<GlbVertices> read_glb(const Glb& glb, MeshFile* file) {
         n_positions += at.count;
         all.push_back(vertices);
       }
-      if (!file) continue;
+      if (!file)
+        continue;
       const std::size_t first = all[found->second].first;
       if (is_new) {
         const bool has_texture = attributes.has("TEXCOORD_0");
         std::optional<Numbers> uv;
-        if (has_texture) uv = glb.numbers(attributes.at("TEXCOORD_0").integer(), "VEC2", 2);
+        if (has_texture)
+          uv = glb.numbers(attributes.at("TEXCOORD_0").integer(), "VEC2", 2);
         for (std::size_t i = 0; i < at.count; ++i) {
           const Vec3 x(glb.read(at, i, 0), glb.read(at, i, 1), glb.read(at, i, 2));
           file->positions.push_back((place * x.homogeneous()).head<3>());
@@ -357,7 +372,8 @@ MeshFile parse_glb_mesh(std::string bytes, const std::string& name) {
     throw input_error("import.no-faces"_id, name, "", "no node of its scene holds a mesh");
   file.face_texture = file.faces; // texture stands at the vertices
   bool has_texture = false;
-  for (const Vec2& uv : file.texture) has_texture |= !uv.isZero();
+  for (const Vec2& uv : file.texture)
+    has_texture |= !uv.isZero();
   if (!has_texture) {
     file.texture.clear();
     file.face_texture.clear();
@@ -384,19 +400,22 @@ std::string moved_glb_mesh(const MeshFile& file, const std::vector<Vec3>& positi
         high[k] = std::max(high[k], kept);
       }
     }
-    Json& accessor = glb.json()["accessors"][static_cast<std::size_t>(vertices.accessor)];
+    Json& accessor = glb.json()["accessors"][vertices.accessor];
     accessor["min"] = {low[0], low[1], low[2]};
     accessor["max"] = {high[0], high[1], high[2]};
     const auto turn = [&](int index, const char* type, int width) {
-      if (index < 0 || !turned_accessors.insert(index).second) return;
+      if (index < 0 || !turned_accessors.insert(index).second)
+        return;
       const Numbers n = glb.numbers(index, type, width);
-      if (n.component != FLOAT) return;
+      if (n.component != FLOAT)
+        return;
       for (std::size_t i = 0; i < n.count && i < at.count; ++i) {
         const Vec3 own(glb.read(n, i, 0), glb.read(n, i, 1), glb.read(n, i, 2));
         // Normals go out by the inverse transpose and come back by the transpose; both are
         // directions here, since a node's scale is rarely uneven: length is restored.
         const Vec3 moved = (in * (turned[vertices.first + i] * (out * own))).normalized();
-        for (int k = 0; k < 3 && moved.allFinite(); ++k) glb.write(n, i, k, moved[k]);
+        for (int k = 0; k < 3 && moved.allFinite(); ++k)
+          glb.write(n, i, k, moved[k]);
       }
     };
     turn(vertices.normal, "VEC3", 3);

@@ -27,14 +27,18 @@ public:
   ObjWalk(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
 
   bool next_line() {
-    if (m_next >= m_text.size()) return false;
-    if (m_next == 0 && m_text.substr(0, 3) == "\xEF\xBB\xBF") m_next = 3;
+    if (m_next >= m_text.size())
+      return false;
+    if (m_next == 0 && m_text.substr(0, 3) == "\xEF\xBB\xBF")
+      m_next = 3;
     m_at = m_next;
     ++m_number;
     std::size_t end = m_text.find('\n', m_at);
-    if (end == std::string_view::npos) end = m_text.size();
+    if (end == std::string_view::npos)
+      end = m_text.size();
     m_next = end + 1;
-    if (end > m_at && m_text[end - 1] == '\r') --end;
+    if (end > m_at && m_text[end - 1] == '\r')
+      --end;
     m_end = end;
     if (m_text.substr(m_at, m_end - m_at).find('\0') != std::string_view::npos)
       fail("is not text", "expected an OBJ file");
@@ -44,7 +48,8 @@ public:
   /// The next word of the line; empty at its end or at a comment.
   Span word() {
     for (;;) {
-      while (m_at < m_end && (m_text[m_at] == ' ' || m_text[m_at] == '\t')) ++m_at;
+      while (m_at < m_end && (m_text[m_at] == ' ' || m_text[m_at] == '\t'))
+        ++m_at;
       if (m_at + 1 == m_end && m_text[m_at] == '\\' && m_next < m_text.size()) {
         next_line();
         continue;
@@ -52,9 +57,12 @@ public:
       break;
     }
     Span span{m_at, m_at};
-    if (m_at < m_end && m_text[m_at] == '#') m_at = m_end;
-    while (m_at < m_end && m_text[m_at] != ' ' && m_text[m_at] != '\t') ++m_at;
-    if (span.begin < m_end && m_text[span.begin] != '#') span.end = m_at;
+    if (m_at < m_end && m_text[m_at] == '#')
+      m_at = m_end;
+    while (m_at < m_end && m_text[m_at] != ' ' && m_text[m_at] != '\t')
+      ++m_at;
+    if (span.begin < m_end && m_text[span.begin] != '#')
+      span.end = m_at;
     return span;
   }
   std::string_view text(Span span) const {
@@ -64,13 +72,16 @@ public:
 
   double number(Span span) const {
     std::string_view word = text(span);
-    if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+    if (!word.empty() && word[0] == '+')
+      word.remove_prefix(1);
     double x = 0;
     const auto result = std::from_chars(word.data(), word.data() + word.size(), x);
-    if (word.empty()) fail("a number is missing");
+    if (word.empty())
+      fail("a number is missing");
     if (result.ec != std::errc() || result.ptr != word.data() + word.size())
       fail("\"" + std::string(word.substr(0, 20)) + "\" is not a number");
-    if (!std::isfinite(x)) fail("a coordinate is not finite");
+    if (!std::isfinite(x))
+      fail("a coordinate is not finite");
     return x;
   }
 
@@ -81,10 +92,14 @@ public:
     std::size_t begin = span.begin;
     for (int k = 0; k < 3 && begin <= span.end; ++k) {
       std::size_t end = m_text.find('/', begin);
-      if (end == std::string_view::npos || end > span.end) end = span.end;
-      if (end > begin) *of[k] = index(text({begin, end}), sizes[k]);
-      else if (k == 0) fail("a corner of a face names no vertex");
-      if (k == 2 && end > begin) corner.normal_at = {begin, end};
+      if (end == std::string_view::npos || end > span.end)
+        end = span.end;
+      if (end > begin)
+        *of[k] = index(text({begin, end}), sizes[k]);
+      else if (k == 0)
+        fail("a corner of a face names no vertex");
+      if (k == 2 && end > begin)
+        corner.normal_at = {begin, end};
       begin = end + 1;
     }
     return corner;
@@ -101,7 +116,8 @@ private:
     const auto result = std::from_chars(word.data(), word.data() + word.size(), i);
     if (result.ec != std::errc() || result.ptr != word.data() + word.size())
       fail("\"" + std::string(word.substr(0, 20)) + "\" is not an index");
-    if (i < 0) i += static_cast<long>(size) + 1;
+    if (i < 0)
+      i += static_cast<long>(size) + 1;
     if (i < 1 || i > static_cast<long>(size))
       fail("the face refers to " + std::string(word) + ", but only " + std::to_string(size) +
            " are defined above it");
@@ -136,13 +152,15 @@ ObjPlaces read_places(const std::string& bytes, const std::string& name, MeshFil
         p[k] = walk.number(at[k]);
       }
       places.vertices.push_back(at);
-      if (file) file->positions.push_back(p);
+      if (file)
+        file->positions.push_back(p);
     } else if (key == "vt") {
       const double u = walk.number(walk.word());
       const Span second = walk.word();
       const double v = second.end > second.begin ? walk.number(second) : 0;
       ++n_texture;
-      if (file) file->texture.emplace_back(u, v);
+      if (file)
+        file->texture.emplace_back(u, v);
     } else if (key == "vn") {
       Vec3 n;
       Span last;
@@ -158,7 +176,8 @@ ObjPlaces read_places(const std::string& bytes, const std::string& name, MeshFil
                                                 places.normals.size()};
       for (Span at = walk.word(); at.end > at.begin; at = walk.word())
         corners.push_back(walk.corner(at, sizes));
-      if (corners.size() < 3) walk.fail("a face has fewer than three corners");
+      if (corners.size() < 3)
+        walk.fail("a face has fewer than three corners");
       places.faces.push_back(std::move(corners));
     } else if (key == "mtllib" && file) {
       std::string_view rest = walk.text(walk.rest());
@@ -235,7 +254,8 @@ std::string moved_obj_mesh(const MeshFile& file, const std::vector<Vec3>& positi
   bool shared = false;
   for (const auto& face : places.faces)
     for (const ObjCorner& c : face) {
-      if (c.normal < 0) continue;
+      if (c.normal < 0)
+        continue;
       shared |= vertex_of[c.normal] >= 0 && vertex_of[c.normal] != c.vertex;
       vertex_of[c.normal] = c.vertex;
     }
@@ -248,10 +268,12 @@ std::string moved_obj_mesh(const MeshFile& file, const std::vector<Vec3>& positi
     std::string lines;
     for (const auto& face : places.faces)
       for (const ObjCorner& c : face) {
-        if (c.normal < 0) continue;
+        if (c.normal < 0)
+          continue;
         const auto [found, is_new] =
             number.try_emplace({c.vertex, c.normal}, static_cast<int>(number.size()));
-        if (is_new) lines += normal_line(turned[c.vertex] * places.normal[c.normal]) + "\n";
+        if (is_new)
+          lines += normal_line(turned[c.vertex] * places.normal[c.normal]) + "\n";
         edits.push_back({c.normal_at, std::to_string(found->second + 1)});
       }
     // A normal that was left out stays an empty line, so that lines keep their numbers.

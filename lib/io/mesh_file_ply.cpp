@@ -59,13 +59,15 @@ private:
       fail("header", "does not end", "the copy is probably truncated");
     std::string_view text = m_bytes.substr(m_at, end - m_at);
     m_at = end + 1;
-    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+    if (!text.empty() && text.back() == '\r')
+      text.remove_suffix(1);
     return text;
   }
 
   static std::string_view word(std::string_view& line) {
     const std::size_t begin = line.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return line = {};
+    if (begin == std::string_view::npos)
+      return line = {};
     const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
     const std::string_view found = line.substr(begin, end - begin);
     line.remove_prefix(end);
@@ -91,12 +93,14 @@ private:
   }
 
   void read_header() {
-    if (m_bytes.substr(0, 3) != "ply") fail("line 1", "does not begin with \"ply\"");
+    if (m_bytes.substr(0, 3) != "ply")
+      fail("line 1", "does not begin with \"ply\"");
     line();
     for (;;) {
       std::string_view text = line();
       const std::string_view key = word(text);
-      if (key == "end_header") break;
+      if (key == "end_header")
+        break;
       if (key == "format") {
         const std::string_view form = word(text);
         if (form != "ascii" && form != "binary_little_endian" && form != "binary_big_endian")
@@ -112,7 +116,8 @@ private:
           fail("header", "element " + part.name + " has no count that this file can hold");
         m_parts.push_back(std::move(part));
       } else if (key == "property") {
-        if (m_parts.empty()) fail("header", "a property comes before any element");
+        if (m_parts.empty())
+          fail("header", "a property comes before any element");
         PlyField field;
         std::string_view type = word(text);
         if (type == "list") {
@@ -148,14 +153,18 @@ private:
     char raw[8] = {};
     std::memcpy(raw, m_bytes.data() + m_at, static_cast<std::size_t>(size));
     m_at = at.end;
-    if (m_swapped) std::reverse(raw, raw + size);
+    if (m_swapped)
+      std::reverse(raw, raw + size);
     const auto as = [&](auto x) {
       std::memcpy(&x, raw, sizeof x);
       return static_cast<double>(x);
     };
-    if (kind == 'f') return size == 4 ? as(float{}) : as(double{});
-    if (size == 1) return kind == 'i' ? as(std::int8_t{}) : as(std::uint8_t{});
-    if (size == 2) return kind == 'i' ? as(std::int16_t{}) : as(std::uint16_t{});
+    if (kind == 'f')
+      return size == 4 ? as(float{}) : as(double{});
+    if (size == 1)
+      return kind == 'i' ? as(std::int8_t{}) : as(std::uint8_t{});
+    if (size == 2)
+      return kind == 'i' ? as(std::int16_t{}) : as(std::uint16_t{});
     return kind == 'i' ? as(std::int32_t{}) : as(std::uint32_t{});
   }
 
@@ -174,7 +183,8 @@ constexpr const char* V_NAMES[] = {"t", "v", "texture_v"};
 template<class Names> int index_in(const Names& names, const std::string& name) {
   int k = 0;
   for (const char* known : names) {
-    if (name == known) return k;
+    if (name == known)
+      return k;
     ++k;
   }
   return -1;
@@ -195,7 +205,8 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
     std::array<bool, 3> normals = {};
     bool has_u = false, has_v = false;
     for (const PlyField& field : part.fields) {
-      if (field.list_size > 0) continue;
+      if (field.list_size > 0)
+        continue;
       axes += index_in(COORDINATES, field.name) >= 0;
       // whole numbers are scaled in ways of their own: such normals stay as they are
       if (const int k = index_in(NORMALS, field.name); k >= 0 && field.kind == 'f')
@@ -203,7 +214,8 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
       has_u |= index_in(U_NAMES, field.name) >= 0;
       has_v |= index_in(V_NAMES, field.name) >= 0;
     }
-    if (is_vertex && axes != 3) walk.fail("header", "the vertices have no x, y and z");
+    if (is_vertex && axes != 3)
+      walk.fail("header", "the vertices have no x, y and z");
     for (std::size_t i = 0; i < part.count; ++i) {
       std::array<PlyPlace, 3> at, normal_at;
       Vec3 p = Vec3::Zero(), n = Vec3::Zero();
@@ -219,13 +231,16 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
           std::vector<int> face;
           for (int c = 0; c < static_cast<int>(count); ++c) {
             const double x = walk.number(field.kind, field.size, place);
-            if (corners) face.push_back(x >= 0 && x < 2e9 ? static_cast<int>(x) : -1);
+            if (corners)
+              face.push_back(x >= 0 && x < 2e9 ? static_cast<int>(x) : -1);
           }
-          if (corners && file) file->faces.push_back(std::move(face));
+          if (corners && file)
+            file->faces.push_back(std::move(face));
           continue;
         }
         const double x = walk.number(field.kind, field.size, place);
-        if (!is_vertex) continue;
+        if (!is_vertex)
+          continue;
         if (const int k = index_in(COORDINATES, field.name); k >= 0) {
           p[k] = x;
           at[k] = place;
@@ -234,18 +249,23 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
           n[k] = x;
           normal_at[k] = place;
         }
-        if (index_in(U_NAMES, field.name) >= 0) uv.x() = x;
-        if (index_in(V_NAMES, field.name) >= 0) uv.y() = x;
+        if (index_in(U_NAMES, field.name) >= 0)
+          uv.x() = x;
+        if (index_in(V_NAMES, field.name) >= 0)
+          uv.y() = x;
       }
-      if (!is_vertex) continue;
+      if (!is_vertex)
+        continue;
       places.position.push_back(at);
       if (normals[0] && normals[1] && normals[2]) {
         places.normal_at.push_back(normal_at);
         places.normal.push_back(n);
       }
-      if (!file) continue;
+      if (!file)
+        continue;
       file->positions.push_back(p);
-      if (has_u && has_v) file->texture.push_back(uv);
+      if (has_u && has_v)
+        file->texture.push_back(uv);
     }
   }
   return places;
@@ -254,12 +274,14 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
 void put_place(std::string& out, const PlyPlace& at, double x, bool swapped) {
   const std::size_t size = at.end - at.begin;
   char raw[8];
-  if (size == 8) std::memcpy(raw, &x, 8);
+  if (size == 8)
+    std::memcpy(raw, &x, 8);
   else {
     const auto single = static_cast<float>(x);
     std::memcpy(raw, &single, 4);
   }
-  if (swapped) std::reverse(raw, raw + size);
+  if (swapped)
+    std::reverse(raw, raw + size);
   out.replace(at.begin, size, raw, size);
 }
 
@@ -281,8 +303,10 @@ MeshFile parse_ply_mesh(std::string bytes, const std::string& name) {
       if (part.name == "vertex" && index_in(COORDINATES, field.name) >= 0 && field.kind != 'f')
         walk.fail("header", "coordinates are whole numbers, and a garment cannot move by less",
                   "write it with float coordinates");
-  if (file.texture.size() != file.positions.size()) file.texture.clear(); // some vertices have none
-  if (!file.texture.empty()) file.face_texture = file.faces; // texture stands at the vertices
+  if (file.texture.size() != file.positions.size())
+    file.texture.clear(); // some vertices have none
+  if (!file.texture.empty())
+    file.face_texture = file.faces; // texture stands at the vertices
   file.bytes = std::move(bytes);
   return file;
 }
@@ -293,10 +317,13 @@ std::string moved_ply_mesh(const MeshFile& file, const std::vector<Vec3>& positi
   const PlyPlaces places = read_ply(walk, nullptr);
   const auto each = [&](auto&& put) {
     for (std::size_t v = 0; v < places.position.size(); ++v) {
-      for (int k = 0; k < 3; ++k) put(places.position[v][k], positions[v][k]);
-      if (places.normal.size() != places.position.size()) continue;
+      for (int k = 0; k < 3; ++k)
+        put(places.position[v][k], positions[v][k]);
+      if (places.normal.size() != places.position.size())
+        continue;
       const Vec3 n = turned[v] * places.normal[v];
-      for (int k = 0; k < 3; ++k) put(places.normal_at[v][k], n[k]);
+      for (int k = 0; k < 3; ++k)
+        put(places.normal_at[v][k], n[k]);
     }
   };
   if (!walk.is_text()) {

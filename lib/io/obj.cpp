@@ -20,14 +20,17 @@ public:
       m_text.remove_prefix(3); // byte order mark, as some editors write it
     while (m_at < m_text.size()) {
       auto end = m_text.find('\n', m_at);
-      if (end == std::string_view::npos) end = m_text.size();
+      if (end == std::string_view::npos)
+        end = m_text.size();
       m_line = m_text.substr(m_at, end - m_at);
       m_at = end + 1;
       ++m_number;
-      if (!m_line.empty() && m_line.back() == '\r') m_line.remove_suffix(1);
+      if (!m_line.empty() && m_line.back() == '\r')
+        m_line.remove_suffix(1);
       parse_line();
     }
-    if (!m_has_texture) m_mesh.texture_triangles.clear();
+    if (!m_has_texture)
+      m_mesh.texture_triangles.clear();
     return std::move(m_mesh);
   }
 
@@ -46,10 +49,11 @@ private:
       parse_face();
     } else if (key == "g" || key == "o") {
       const std::string name(word());
-      const int at = static_cast<int>(m_mesh.triangles.size());
+      const int at = std::ssize(m_mesh.triangles);
       if (!m_mesh.groups.empty() && m_mesh.groups.back().first_triangle == at)
         m_mesh.groups.back().name = name;
-      else m_mesh.groups.push_back({name, at});
+      else
+        m_mesh.groups.push_back({name, at});
     }
   }
 
@@ -62,9 +66,11 @@ private:
       if (slash != std::string_view::npos && m_keep_texture) {
         const std::string_view rest = corner.substr(slash + 1);
         const std::string_view part = rest.substr(0, rest.find('/'));
-        if (!part.empty()) t = index(part, m_mesh.texture.size());
+        if (!part.empty())
+          t = index(part, m_mesh.texture.size());
       }
-      if (t >= 0) m_has_texture = true;
+      if (t >= 0)
+        m_has_texture = true;
       if (count == 0) {
         v0 = v;
         t0 = t;
@@ -77,7 +83,8 @@ private:
         t1 = t;
       }
     }
-    if (count < 3) fail("obj.malformed"_id, "a face has fewer than three corners");
+    if (count < 3)
+      fail("obj.malformed"_id, "a face has fewer than three corners");
   }
 
   int index(std::string_view text, std::size_t size) {
@@ -85,7 +92,8 @@ private:
     const auto result = std::from_chars(text.data(), text.data() + text.size(), i);
     if (result.ec != std::errc() || result.ptr != text.data() + text.size())
       fail("obj.malformed"_id, "\"" + std::string(text) + "\" is not an index");
-    if (i < 0) i += static_cast<long>(size) + 1;
+    if (i < 0)
+      i += static_cast<long>(size) + 1;
     if (i < 1 || i > static_cast<long>(size))
       fail("obj.malformed"_id, "the face refers to " + std::string(text) + ", but only " +
                                    std::to_string(size) + " are defined above it");
@@ -94,14 +102,16 @@ private:
 
   double number() {
     std::string_view text = word();
-    if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+    if (!text.empty() && text[0] == '+')
+      text.remove_prefix(1);
     double x = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
     if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
       fail("obj.malformed"_id, text.empty()
                                    ? "a number is missing"
                                    : "\"" + std::string(text.substr(0, 20)) + "\" is not a number");
-    if (!std::isfinite(x)) fail("obj.malformed"_id, "a coordinate is not finite");
+    if (!std::isfinite(x))
+      fail("obj.malformed"_id, "a coordinate is not finite");
     return x;
   }
 
@@ -112,7 +122,8 @@ private:
       return {};
     }
     auto end = m_line.find_first_of(" \t", begin);
-    if (end == std::string_view::npos) end = m_line.size();
+    if (end == std::string_view::npos)
+      end = m_line.size();
     const std::string_view w = m_line.substr(begin, end - begin);
     m_line.remove_prefix(end);
     return w;
@@ -164,12 +175,14 @@ std::string obj_text(const ObjMesh& mesh, const std::string& comment) {
   out.reserve(mesh.positions.size() * 60 + mesh.triangles.size() * 24);
   for (const Vec3& p : mesh.positions) {
     out += 'v';
-    for (int k = 0; k < 3; ++k) append_number(out, p[k]);
+    for (int k = 0; k < 3; ++k)
+      append_number(out, p[k]);
     out += '\n';
   }
   for (const Vec2& t : mesh.texture) {
     out += "vt";
-    for (int k = 0; k < 2; ++k) append_number(out, t[k]);
+    for (int k = 0; k < 2; ++k)
+      append_number(out, t[k]);
     out += '\n';
   }
   std::size_t group = 0;

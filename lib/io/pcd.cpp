@@ -28,7 +28,8 @@ std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t at = 0; at < line.size();) {
     const std::size_t begin = line.find_first_not_of(" \t\r", at);
-    if (begin == std::string_view::npos) break;
+    if (begin == std::string_view::npos)
+      break;
     const std::size_t end = std::min(line.size(), line.find_first_of(" \t\r", begin));
     words.push_back(line.substr(begin, end - begin));
     at = end;
@@ -44,7 +45,8 @@ bool expand_lzf(std::string_view input, std::string& output) {
     const std::size_t control = next();
     if (control < 32) { // so many bytes and one as they are
       const std::size_t n = control + 1;
-      if (in + n > input.size() || out + n > output.size()) return false;
+      if (in + n > input.size() || out + n > output.size())
+        return false;
       std::memcpy(output.data() + out, input.data() + in, n);
       in += n;
       out += n;
@@ -52,14 +54,18 @@ bool expand_lzf(std::string_view input, std::string& output) {
     }
     std::size_t n = control >> 5;
     if (n == 7) {
-      if (in >= input.size()) return false;
+      if (in >= input.size())
+        return false;
       n += next();
     }
-    if (in >= input.size()) return false;
+    if (in >= input.size())
+      return false;
     const std::size_t back = ((control & 31) << 8) + next() + 1;
     n += 2;
-    if (back > out || out + n > output.size()) return false;
-    for (std::size_t k = 0; k < n; ++k, ++out) output[out] = output[out - back]; // may overlap
+    if (back > out || out + n > output.size())
+      return false;
+    for (std::size_t k = 0; k < n; ++k, ++out)
+      output[out] = output[out - back]; // may overlap
   }
   return out == output.size();
 }
@@ -70,15 +76,19 @@ public:
 
   TriangleMesh run() {
     read_header();
-    if (m_data == "ascii") read_text();
-    else if (m_data == "binary") read_points(m_bytes.substr(m_at), false);
-    else read_compressed();
+    if (m_data == "ascii")
+      read_text();
+    else if (m_data == "binary")
+      read_points(m_bytes.substr(m_at), false);
+    else
+      read_compressed();
     return std::move(m_mesh);
   }
 
 private:
   bool next_line(std::string_view& line) {
-    if (m_at >= m_bytes.size()) return false;
+    if (m_at >= m_bytes.size())
+      return false;
     const std::size_t end = std::min(m_bytes.size(), m_bytes.find('\n', m_at));
     line = m_bytes.substr(m_at, end - m_at);
     m_at = std::min(m_bytes.size(), end + 1);
@@ -89,9 +99,11 @@ private:
   void read_header() {
     std::string_view line;
     while (m_data.empty()) {
-      if (!next_line(line)) fail("scan.malformed"_id, "header", "ends before \"DATA\"");
+      if (!next_line(line))
+        fail("scan.malformed"_id, "header", "ends before \"DATA\"");
       const std::vector<std::string_view> words = words_of(line);
-      if (words.empty() || words[0][0] == '#') continue;
+      if (words.empty() || words[0][0] == '#')
+        continue;
       read_entry(words);
     }
     std::size_t at = 0;
@@ -102,34 +114,45 @@ private:
     m_stride = at;
     for (int axis = 0; axis < 3; ++axis) {
       for (std::size_t k = 0; k < m_fields.size(); ++k)
-        if (m_fields[k].name == std::string(1, "xyz"[axis])) m_axis[axis] = static_cast<int>(k);
-      if (m_axis[axis] < 0) fail("scan.malformed"_id, "FIELDS", "has no x, y and z");
-      const Field& field = m_fields[static_cast<std::size_t>(m_axis[axis])];
+        if (m_fields[k].name == std::string(1, "xyz"[axis]))
+          m_axis[axis] = static_cast<int>(k);
+      if (m_axis[axis] < 0)
+        fail("scan.malformed"_id, "FIELDS", "has no x, y and z");
+      const Field& field = m_fields[m_axis[axis]];
       if (field.type != 'F' || (field.size != 4 && field.size != 8) || field.count != 1)
         fail("scan.malformed"_id, "TYPE",
              "x, y and z are not floating-point numbers of 4 or 8 bytes");
     }
-    if (m_points == 0) m_points = m_width * m_height;
-    if (m_points > MOST_POINTS) fail("scan.malformed"_id, "POINTS", "is more than any scan has");
+    if (m_points == 0)
+      m_points = m_width * m_height;
+    if (m_points > MOST_POINTS)
+      fail("scan.malformed"_id, "POINTS", "is more than any scan has");
   }
 
   void read_entry(const std::vector<std::string_view>& words) {
     const std::string_view key = words[0];
     const std::size_t n = words.size() - 1;
     if (key == "FIELDS" || key == "COLUMNS") {
-      if (n > MOST_FIELDS) fail("scan.malformed"_id, place(), "more than 256 fields");
+      if (n > MOST_FIELDS)
+        fail("scan.malformed"_id, place(), "more than 256 fields");
       m_fields.resize(n);
-      for (std::size_t k = 0; k < n; ++k) m_fields[k].name = std::string(words[k + 1]);
+      for (std::size_t k = 0; k < n; ++k)
+        m_fields[k].name = std::string(words[k + 1]);
     } else if (key == "SIZE" || key == "COUNT" || key == "TYPE") {
       if (n != m_fields.size())
         fail("scan.malformed"_id, place(), "has not one entry for each field");
       for (std::size_t k = 0; k < n; ++k) {
-        if (key == "TYPE") m_fields[k].type = words[k + 1][0];
-        else (key == "SIZE" ? m_fields[k].size : m_fields[k].count) = count_of(words[k + 1], 65536);
+        if (key == "TYPE")
+          m_fields[k].type = words[k + 1][0];
+        else
+          (key == "SIZE" ? m_fields[k].size : m_fields[k].count) = count_of(words[k + 1], 65536);
       }
-    } else if (key == "WIDTH") m_width = count_of(word(words, 1), MOST_POINTS);
-    else if (key == "HEIGHT") m_height = count_of(word(words, 1), MOST_POINTS);
-    else if (key == "POINTS") m_points = count_of(word(words, 1), MOST_POINTS);
+    } else if (key == "WIDTH")
+      m_width = count_of(word(words, 1), MOST_POINTS);
+    else if (key == "HEIGHT")
+      m_height = count_of(word(words, 1), MOST_POINTS);
+    else if (key == "POINTS")
+      m_points = count_of(word(words, 1), MOST_POINTS);
     else if (key == "DATA") {
       m_data = std::string(word(words, 1));
       if (m_data != "ascii" && m_data != "binary" && m_data != "binary_compressed")
@@ -141,7 +164,8 @@ private:
   }
 
   std::string_view word(const std::vector<std::string_view>& words, std::size_t k) const {
-    if (k >= words.size()) fail("scan.malformed"_id, place(), "has no value");
+    if (k >= words.size())
+      fail("scan.malformed"_id, place(), "has no value");
     return words[k];
   }
 
@@ -155,19 +179,22 @@ private:
   }
 
   void add(const Vec3& p) {
-    if (p.allFinite()) m_mesh.positions.push_back(p);
+    if (p.allFinite())
+      m_mesh.positions.push_back(p);
   }
 
   void read_text() {
     std::size_t column[3] = {0, 0, 0}, columns = 0;
     for (std::size_t k = 0; k < m_fields.size(); ++k) {
       for (int axis = 0; axis < 3; ++axis)
-        if (m_axis[axis] == static_cast<int>(k)) column[axis] = columns;
+        if (m_axis[axis] == static_cast<int>(k))
+          column[axis] = columns;
       columns += m_fields[k].count;
     }
     std::string_view line;
     for (std::size_t i = 0; i < m_points; ++i) {
-      if (!next_line(line)) fail("scan.truncated"_id, place(), "the file ends early", TRUNCATED);
+      if (!next_line(line))
+        fail("scan.truncated"_id, place(), "the file ends early", TRUNCATED);
       const std::vector<std::string_view> words = words_of(line);
       if (words.size() < columns)
         fail("scan.malformed"_id, place(), "has fewer numbers than there are fields");
@@ -191,14 +218,15 @@ private:
     for (std::size_t i = 0; i < m_points; ++i) {
       Vec3 p;
       for (int axis = 0; axis < 3; ++axis) {
-        const Field& field = m_fields[static_cast<std::size_t>(m_axis[axis])];
+        const Field& field = m_fields[m_axis[axis]];
         const char* at = data.data() + (by_field ? field.offset * m_points + i * field.size
                                                  : i * m_stride + field.offset);
         if (field.size == 4) {
           float x;
           std::memcpy(&x, at, sizeof x);
           p[axis] = x;
-        } else std::memcpy(&p[axis], at, sizeof(double));
+        } else
+          std::memcpy(&p[axis], at, sizeof(double));
       }
       add(p);
     }

@@ -43,9 +43,11 @@ std::string png_bytes(const Image& image,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_pHYs(png, info, 5906, 5906, PNG_RESOLUTION_METER); // 150 dots per inch
-  if (!chunks.empty()) png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
+  if (!chunks.empty())
+    png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
   png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) png_write_row(png, image.at(0, y));
+  for (int y = 0; y < image.height; ++y)
+    png_write_row(png, image.at(0, y));
   png_write_end(png, info);
   png_destroy_write_struct(&png, &info);
   return out;
@@ -63,7 +65,8 @@ constexpr std::size_t SIGNATURE = 8, BEFORE_DATA = 8, AROUND_DATA = 12;
 
 std::string big_endian(std::uint32_t x, int n_bytes = 4) {
   std::string bytes;
-  for (int k = n_bytes - 1; k >= 0; --k) bytes += static_cast<char>(x >> (8 * k) & 255);
+  for (int k = n_bytes - 1; k >= 0; --k)
+    bytes += static_cast<char>(x >> (8 * k) & 255);
   return bytes;
 }
 
@@ -99,7 +102,8 @@ std::string apng_bytes(const std::vector<Image>& images, double seconds,
                   "the pictures of an animation differ in size");
     const bool first = &image == &images[0];
     const std::string png = png_bytes(image, first ? texts : decltype(texts){});
-    if (first) out = png.substr(0, SIGNATURE);
+    if (first)
+      out = png.substr(0, SIGNATURE);
     bool opened = false;
     for_chunks(png, [&](const std::string& name, std::string_view data) {
       if (name == "IDAT" && !opened) {
@@ -117,7 +121,8 @@ std::string apng_bytes(const std::vector<Image>& images, double seconds,
       }
       if (name == "IDAT" && !first)
         append_chunk(out, "fdAT", big_endian(sequence++) + std::string(data));
-      else if (first && name != "IEND") append_chunk(out, name, data);
+      else if (first && name != "IEND")
+        append_chunk(out, name, data);
     });
   }
   append_chunk(out, "IEND", "");

@@ -21,20 +21,25 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t MAX_ELEMENTS =
     100'000'000; ///< more than any scan; a header that promises more is a broken file
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == ';'; }
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == ';';
+}
 
 std::string_view next_word(std::string_view& line) {
   std::size_t begin = 0;
-  while (begin < line.size() && is_space(line[begin])) ++begin;
+  while (begin < line.size() && is_space(line[begin]))
+    ++begin;
   std::size_t end = begin;
-  while (end < line.size() && !is_space(line[end])) ++end;
+  while (end < line.size() && !is_space(line[end]))
+    ++end;
   const std::string_view word = line.substr(begin, end - begin);
   line.remove_prefix(end);
   return word;
 }
 
 bool parse_number(std::string_view word, double& x) {
-  if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+  if (!word.empty() && word[0] == '+')
+    word.remove_prefix(1);
   const auto result = std::from_chars(word.data(), word.data() + word.size(), x);
   return !word.empty() && result.ec == std::errc() && result.ptr == word.data() + word.size();
 }
@@ -44,13 +49,16 @@ class Lines {
 public:
   explicit Lines(std::string_view text) : m_text(text) {}
   bool next(std::string_view& line) {
-    if (m_at >= m_text.size()) return false;
+    if (m_at >= m_text.size())
+      return false;
     auto end = m_text.find('\n', m_at);
-    if (end == std::string_view::npos) end = m_text.size();
+    if (end == std::string_view::npos)
+      end = m_text.size();
     line = m_text.substr(m_at, end - m_at);
     m_at = end + 1;
     ++m_number;
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    if (!line.empty() && line.back() == '\r')
+      line.remove_suffix(1);
     return true;
   }
   std::size_t at() const { return std::min(m_at, m_text.size()); }
@@ -91,10 +99,11 @@ public:
 
   TriangleMesh run() {
     read_header();
-    for (const PlyElement& element : m_elements) read_element(element);
+    for (const PlyElement& element : m_elements)
+      read_element(element);
     for (const Triangle& t : m_mesh.triangles)
       for (int v : t)
-        if (v < 0 || v >= static_cast<int>(m_mesh.positions.size()))
+        if (v < 0 || v >= std::ssize(m_mesh.positions))
           fail("scan.malformed"_id, "face",
                "refers to vertex " + std::to_string(v) + ", but there are only " +
                    std::to_string(m_mesh.positions.size()));
@@ -111,7 +120,8 @@ private:
         {"float", PlyType::F32},  {"float32", PlyType::F32}, {"double", PlyType::F64},
         {"float64", PlyType::F64}};
     for (const auto& [name, type] : names)
-      if (word == name) return type;
+      if (word == name)
+        return type;
     fail("scan.malformed"_id, m_lines.place(),
          '"' + std::string(word.substr(0, 20)) + "\" is not a PLY type");
   }
@@ -121,9 +131,11 @@ private:
     if (!m_lines.next(line) || line != "ply")
       fail("scan.malformed"_id, "line 1", "does not begin with \"ply\"");
     while (true) {
-      if (!m_lines.next(line)) fail("scan.malformed"_id, "header", "ends before \"end_header\"");
+      if (!m_lines.next(line))
+        fail("scan.malformed"_id, "header", "ends before \"end_header\"");
       const std::string_view key = next_word(line);
-      if (key == "end_header") break;
+      if (key == "end_header")
+        break;
       if (key == "format") {
         const std::string_view kind = next_word(line);
         m_ascii = kind == "ascii";
@@ -175,7 +187,8 @@ private:
            "the copy is probably truncated");
     char raw[8];
     std::memcpy(raw, m_bytes.data() + m_at, n);
-    if (m_swap) std::reverse(raw, raw + n);
+    if (m_swap)
+      std::reverse(raw, raw + n);
     m_at += n;
     auto as = [&](auto x) {
       std::memcpy(&x, raw, sizeof x);
@@ -220,7 +233,8 @@ private:
         const PlyProperty& property = element.properties[k];
         if (!property.is_list) {
           const double x = value(property.type, line);
-          if (axis_of[k] >= 0) p[axis_of[k]] = x;
+          if (axis_of[k] >= 0)
+            p[axis_of[k]] = x;
           continue;
         }
         const double count = value(property.count_type, line);
@@ -232,12 +246,14 @@ private:
         corners.clear();
         for (int c = 0; c < static_cast<int>(count); ++c) {
           const double x = value(property.type, line);
-          if (corner_list) corners.push_back(x >= 0 && x < 2e9 ? static_cast<int>(x) : -1);
+          if (corner_list)
+            corners.push_back(x >= 0 && x < 2e9 ? static_cast<int>(x) : -1);
         }
         for (std::size_t c = 2; corner_list && c < corners.size(); ++c)
           m_mesh.triangles.push_back({corners[0], corners[c - 1], corners[c]});
       }
-      if (!is_vertex) continue;
+      if (!is_vertex)
+        continue;
       if (!p.allFinite())
         fail("scan.not-finite"_id, "vertex " + std::to_string(i), "a coordinate is not finite");
       m_mesh.positions.push_back(p);
@@ -259,8 +275,9 @@ private:
 };
 
 void add_facet(TriangleMesh& mesh, const Vec3 (&corner)[3]) {
-  const int first = static_cast<int>(mesh.positions.size());
-  for (const Vec3& p : corner) mesh.positions.push_back(p);
+  const int first = std::ssize(mesh.positions);
+  for (const Vec3& p : corner)
+    mesh.positions.push_back(p);
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
@@ -276,7 +293,8 @@ static constexpr std::size_t STL_TITLE = 80, STL_HEAD = 84, STL_FACET = 50;
 TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
   TriangleMesh mesh;
   std::uint32_t count = 0;
-  if (bytes.size() >= STL_HEAD) std::memcpy(&count, bytes.data() + STL_TITLE, sizeof count);
+  if (bytes.size() >= STL_HEAD)
+    std::memcpy(&count, bytes.data() + STL_TITLE, sizeof count);
   const bool is_text = bytes.substr(0, 5) == "solid" &&
                        bytes.substr(0, 2000).find("facet") != std::string_view::npos;
   if (!is_text) {
@@ -308,7 +326,8 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
   Vec3 corner[3];
   int k = 0;
   while (lines.next(line)) {
-    if (next_word(line) != "vertex") continue;
+    if (next_word(line) != "vertex")
+      continue;
     for (int axis = 0; axis < 3; ++axis)
       if (!parse_number(next_word(line), corner[k][axis]) || !std::isfinite(corner[k][axis]))
         throw input_error("scan.malformed"_id, name, lines.place(),
@@ -333,11 +352,13 @@ TriangleMesh parse_xyz(std::string_view bytes, const std::string& name) {
       throw input_error("scan.malformed"_id, name, lines.place(), "is not text",
                         "expected x y z on every line");
     std::string_view word = next_word(line);
-    if (word.empty() || word[0] == '#' || word.substr(0, 2) == "//") continue;
+    if (word.empty() || word[0] == '#' || word.substr(0, 2) == "//")
+      continue;
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis) {
       if (!parse_number(word, p[axis])) {
-        if (mesh.positions.empty() && axis == 0) break; // a heading line
+        if (mesh.positions.empty() && axis == 0)
+          break; // a heading line
         throw input_error("scan.malformed"_id, name, lines.place(),
                           word.empty()
                               ? "has fewer than three numbers"
@@ -345,8 +366,10 @@ TriangleMesh parse_xyz(std::string_view bytes, const std::string& name) {
       }
       if (!std::isfinite(p[axis]))
         throw input_error("scan.not-finite"_id, name, lines.place(), "a coordinate is not finite");
-      if (axis < 2) word = next_word(line);
-      else mesh.positions.push_back(p);
+      if (axis < 2)
+        word = next_word(line);
+      else
+        mesh.positions.push_back(p);
     }
   }
   return mesh;
@@ -365,18 +388,24 @@ std::string format_of(const std::string& path, std::string_view bytes) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* points : {"asc", "txt", "pts", "csv"})
-    if (extension == points) return "xyz";
+    if (extension == points)
+      return "xyz";
   for (const char* ours : {"obj", "ply", "stl", "3ds", "xyz", "pcd"})
-    if (extension == ours) return extension;
-  if (is_read_by_assimp(extension)) return extension;
+    if (extension == ours)
+      return extension;
+  if (is_read_by_assimp(extension))
+    return extension;
   const std::string_view head = bytes.substr(0, 4000);
   if (const std::size_t first = head.find_first_not_of(" \t\r\n");
       first != std::string_view::npos && head[first] == '{')
     throw input_error("scan.is-document"_id, path, "", "is a JSON document, not a scan",
                       std::string(EXPECTED) + "; a document's mesh is the .obj beside it");
-  if (head.substr(0, 3) == "ply") return "ply";
-  if (head.substr(0, 6) == "# .PCD") return "pcd";
-  if (head.find("\nv ") != std::string_view::npos || head.substr(0, 2) == "v ") return "obj";
+  if (head.substr(0, 3) == "ply")
+    return "ply";
+  if (head.substr(0, 6) == "# .PCD")
+    return "pcd";
+  if (head.find("\nv ") != std::string_view::npos || head.substr(0, 2) == "v ")
+    return "obj";
   return head.substr(0, 5) == "solid" ? "stl" : "xyz";
 }
 
@@ -384,7 +413,8 @@ std::string format_of(const std::string& path, std::string_view bytes) {
 
 Scan read_scan(const std::string& path) {
   const std::string bytes = read_file(path);
-  if (bytes.empty()) throw input_error("file.empty"_id, path, "", "is empty", EXPECTED);
+  if (bytes.empty())
+    throw input_error("file.empty"_id, path, "", "is empty", EXPECTED);
   Scan scan;
   scan.format = format_of(path, bytes);
   scan.sha256 = sha256(bytes);
@@ -392,12 +422,18 @@ Scan read_scan(const std::string& path) {
     ObjMesh obj = parse_obj(bytes, path, false);
     scan.mesh.positions = std::move(obj.positions);
     scan.mesh.triangles = std::move(obj.triangles);
-  } else if (scan.format == "ply") scan.mesh = parse_ply(bytes, path);
-  else if (scan.format == "stl") scan.mesh = parse_stl(bytes, path);
-  else if (scan.format == "3ds") scan.mesh = parse_3ds(bytes, path);
-  else if (scan.format == "xyz") scan.mesh = parse_xyz(bytes, path);
-  else if (scan.format == "pcd") scan.mesh = parse_pcd(bytes, path);
-  else scan.mesh = read_with_assimp(path, scan.format);
+  } else if (scan.format == "ply")
+    scan.mesh = parse_ply(bytes, path);
+  else if (scan.format == "stl")
+    scan.mesh = parse_stl(bytes, path);
+  else if (scan.format == "3ds")
+    scan.mesh = parse_3ds(bytes, path);
+  else if (scan.format == "xyz")
+    scan.mesh = parse_xyz(bytes, path);
+  else if (scan.format == "pcd")
+    scan.mesh = parse_pcd(bytes, path);
+  else
+    scan.mesh = read_with_assimp(path, scan.format);
   if (scan.mesh.positions.empty())
     throw input_error("scan.no-vertices"_id, path, "", "holds no vertices", EXPECTED);
   return scan;

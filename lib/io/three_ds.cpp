@@ -47,29 +47,36 @@ private:
   }
 
   void read_chunks(std::size_t at, std::size_t end, int depth) {
-    if (depth > DEPTH) fail("scan.malformed"_id, at, "chunks are nested too deeply for a 3DS file");
+    if (depth > DEPTH)
+      fail("scan.malformed"_id, at, "chunks are nested too deeply for a 3DS file");
     while (at + HEADER <= end) {
       const auto kind = read<std::uint16_t>(at);
       const std::size_t length = read<std::uint32_t>(at + 2);
-      if (length < HEADER) fail("scan.malformed"_id, at, "a chunk is shorter than its own header");
+      if (length < HEADER)
+        fail("scan.malformed"_id, at, "a chunk is shorter than its own header");
       if (at + length > end)
         fail("scan.truncated"_id, at, "a chunk extends past the end of its parent",
              "the copy is probably truncated");
       const std::size_t inside = at + HEADER, close = at + length;
-      if (kind == MAIN || kind == EDITOR) read_chunks(inside, close, depth + 1);
-      else if (kind == OBJECT) read_object(inside, close, depth);
+      if (kind == MAIN || kind == EDITOR)
+        read_chunks(inside, close, depth + 1);
+      else if (kind == OBJECT)
+        read_object(inside, close, depth);
       else if (kind == MESH) {
         m_first = static_cast<int>(
             m_mesh.positions.size()); // faces count from their own mesh's first vertex
         read_chunks(inside, close, depth + 1);
-      } else if (kind == VERTICES) read_vertices(inside, close);
-      else if (kind == FACES) read_faces(inside, close);
+      } else if (kind == VERTICES)
+        read_vertices(inside, close);
+      else if (kind == FACES)
+        read_faces(inside, close);
       at = close;
     }
   }
 
   void read_object(std::size_t at, std::size_t end, int depth) {
-    while (at < end && m_bytes[at] != '\0') ++at; // its name
+    while (at < end && m_bytes[at] != '\0')
+      ++at; // its name
     read_chunks(at + 1, end, depth + 1);
   }
 

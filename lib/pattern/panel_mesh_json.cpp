@@ -12,7 +12,8 @@ namespace {
 
 io::Json numbers(const std::vector<int>& list) {
   io::Json out = io::Json::array();
-  for (int v : list) out.push_back(v);
+  for (int v : list)
+    out.push_back(v);
   return out;
 }
 
@@ -32,7 +33,8 @@ const char* const PLACEMENTS[] = {"", "flat", "stated", "body"};
 
 Placement placement_of(const io::Node& by) {
   for (const Placement p : {Placement::FLAT, Placement::STATED, Placement::BODY})
-    if (by.string() == PLACEMENTS[static_cast<int>(p)]) return p;
+    if (by.string() == PLACEMENTS[static_cast<int>(p)])
+      return p;
   return Placement::UNKNOWN;
 }
 
@@ -44,23 +46,26 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   obj.texture = mesh.pattern;
   obj.triangles = mesh.triangles;
   obj.texture_triangles = mesh.triangles;
-  for (const PanelInfo& p : mesh.panels) obj.groups.push_back({p.name, p.first_triangle});
+  for (const PanelInfo& p : mesh.panels)
+    obj.groups.push_back({p.name, p.first_triangle});
   const std::string mesh_path = io::mesh_path_beside(path);
 
   io::Json doc = io::new_document("panels", PANELS_VERSION, tool);
   doc["name"] = mesh.name;
   doc["mesh"] = io::file_name(mesh_path);
   doc["edge_length"] = mesh.edge_length;
-  if (mesh.seam_length > 0) doc["seam_edge_length"] = mesh.seam_length;
+  if (mesh.seam_length > 0)
+    doc["seam_edge_length"] = mesh.seam_length;
   if (mesh.placement != Placement::UNKNOWN)
     doc["placement"] = {{"by", PLACEMENTS[static_cast<int>(mesh.placement)]}};
-  if (!mesh.body_sha256.empty()) doc["placement"]["body_sha256"] = mesh.body_sha256;
+  if (!mesh.body_sha256.empty())
+    doc["placement"]["body_sha256"] = mesh.body_sha256;
   io::Json panels = io::Json::array();
   for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
     const PanelInfo& p = mesh.panels[k];
     io::Json st = io::Json::array();
     for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v) {
-      const StableId& id = mesh.ids[static_cast<std::size_t>(v)];
+      const StableId& id = mesh.ids[v];
       st.push_back(id.s);
       st.push_back(id.t);
     }
@@ -84,11 +89,13 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
                      {"ease", s.length_b > 0 ? s.length_a / s.length_b - 1 : 0.0},
                      {"a", numbers(s.a)},
                      {"b", numbers(s.b)}});
-    if (s.open) seams.back()["open"] = true;
+    if (s.open)
+      seams.back()["open"] = true;
   }
   doc["seams"] = seams;
   io::put_findings(doc, mesh.findings);
-  if (mesh.source) doc["pattern"] = pattern_json(*mesh.source, tool, PatternNumbers::EXACT);
+  if (mesh.source)
+    doc["pattern"] = pattern_json(*mesh.source, tool, PatternNumbers::EXACT);
   const std::string text = io::to_text(doc); // before anything is written
   io::write_obj(mesh_path, obj, generator_stamp(tool));
   io::write_json(path, doc);

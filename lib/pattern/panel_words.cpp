@@ -36,10 +36,12 @@ Words words_of(const std::string& name) {
     const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
     if (!letter || (std::isupper(static_cast<unsigned char>(c)) &&
                     std::islower(static_cast<unsigned char>(last)))) {
-      if (!word.empty()) words.insert(word);
+      if (!word.empty())
+        words.insert(word);
       word.clear();
     }
-    if (letter) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (letter)
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     last = c;
   }
   return words;
@@ -48,10 +50,12 @@ Words words_of(const std::string& name) {
 Words words_of(const Pattern& pattern, std::size_t k) {
   const Panel& panel = pattern.panels[k];
   Words words = words_of(panel.name);
-  if (pattern.source_format != "dxf" && pattern.source_format != "clo") return words;
+  if (pattern.source_format != "dxf" && pattern.source_format != "clo")
+    return words;
   const bool side_told = name_suggests_front(words) || says_back(words);
   for (const std::string& word : words_of(panel.label))
-    if (!side_told || (!name_suggests_front({word}) && !says_back({word}))) words.insert(word);
+    if (!side_told || (!name_suggests_front({word}) && !says_back({word})))
+      words.insert(word);
   return words;
 }
 
@@ -63,7 +67,8 @@ bool any_of(const Words& words, std::initializer_list<const char*> wanted) {
 bool any_begins(const Words& words, std::initializer_list<const char*> starts) {
   for (const std::string& w : words)
     for (const char* start : starts)
-      if (w.rfind(start, 0) == 0) return true;
+      if (w.rfind(start, 0) == 0)
+        return true;
   return false;
 }
 
@@ -85,18 +90,22 @@ bool says_sleeve(const Words& words) {
                             "rmel"}) ||
          any_of(words, {"sl"});
 }
-bool says_cuff(const Words& words) { return any_begins(words, {"cuff", "mansch"}); }
+bool says_cuff(const Words& words) {
+  return any_begins(words, {"cuff", "mansch"});
+}
 bool says_neck(const Words& words) {
   return any_begins(words, {"collar", "stand", "neck", "hood", "turtle", "lapel", "kragen",
                             "kapuze", "cuello", "capuch", "colletto"}) ||
          any_of(words, {"col"});
 }
 bool says_legs(const Words& words) {
-  if (any_begins(words, {"leg", "pant", "trouser", "jean", "hose", "pantal"})) return true;
+  if (any_begins(words, {"leg", "pant", "trouser", "jean", "hose", "pantal"}))
+    return true;
   return any_begins(words, {"short"}) && !says_sleeve(words); // a short sleeve is none
 }
 bool says_skirt(const Words& words) {
-  if (says_cuff(words)) return false; // the skirt of a cuff
+  if (says_cuff(words))
+    return false; // the skirt of a cuff
   return any_begins(words, {"skirt", "gore", "waist", "rock", "jupe", "falda", "gonna"}) ||
          any_of(words, {"wb"});
 }

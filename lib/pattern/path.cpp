@@ -19,21 +19,26 @@ Segment Segment::cubic(const Vec2& a, const Vec2& c1, const Vec2& c2, const Vec2
 }
 
 Vec2 Segment::at(double t) const {
-  if (t <= 0) return p[0];
-  if (t >= 1) return p[3];
+  if (t <= 0)
+    return p[0];
+  if (t >= 1)
+    return p[3];
   const double u = 1 - t;
-  if (line) return u * p[0] + t * p[3];
+  if (line)
+    return u * p[0] + t * p[3];
   return u * u * u * p[0] + 3 * u * u * t * p[1] + 3 * u * t * t * p[2] + t * t * t * p[3];
 }
 
 Vec2 Segment::derivative(double t) const {
-  if (line) return p[3] - p[0];
+  if (line)
+    return p[3] - p[0];
   const double u = 1 - t;
   return 3 * u * u * (p[1] - p[0]) + 6 * u * t * (p[2] - p[1]) + 3 * t * t * (p[3] - p[2]);
 }
 
 double Segment::length(double t0, double t1) const {
-  if (line) return (t1 - t0) * (p[3] - p[0]).norm();
+  if (line)
+    return (t1 - t0) * (p[3] - p[0]).norm();
   static constexpr double X[5] = {0, 0.538469310105683, -0.538469310105683, 0.906179845938664,
                                   -0.906179845938664};
   static constexpr double W[5] = {0.568888888888889, 0.478628670499366, 0.478628670499366,
@@ -44,12 +49,15 @@ double Segment::length(double t0, double t1) const {
   return 0.5 * (t1 - t0) * sum;
 }
 
-Segment Segment::reversed() const { return {{p[3], p[2], p[1], p[0]}, line}; }
+Segment Segment::reversed() const {
+  return {{p[3], p[2], p[1], p[0]}, line};
+}
 
 Path circle_arc(const Vec2& a, const Vec2& b, double radius, bool large, bool ccw) {
   const Vec2 chord = b - a;
   const double half = 0.5 * chord.norm();
-  if (half == 0) return {Segment::straight(a, b)};
+  if (half == 0)
+    return {Segment::straight(a, b)};
   radius = std::max(radius, half);
   const Vec2 left = Vec2(-chord.y(), chord.x()) / (2 * half);
   // The centre lies to the left of the way for a short counter-clockwise arc, and for a long
@@ -58,8 +66,10 @@ Path circle_arc(const Vec2& a, const Vec2& b, double radius, bool large, bool cc
       std::sqrt(std::max(0.0, radius * radius - half * half)) * (large == ccw ? -1 : 1);
   const Vec2 center = 0.5 * (a + b) + offset * left;
   double sweep = 2 * std::asin(std::min(1.0, half / radius));
-  if (large) sweep = 2 * units::PI - sweep;
-  if (!ccw) sweep = -sweep;
+  if (large)
+    sweep = 2 * units::PI - sweep;
+  if (!ccw)
+    sweep = -sweep;
   const int n = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / (units::PI / 12) - 1e-9)));
   const double step = sweep / n, handle = 4.0 / 3.0 * std::tan(step / 4);
   const double start = std::atan2(a.y() - center.y(), a.x() - center.x());
@@ -77,7 +87,8 @@ Path circle_arc(const Vec2& a, const Vec2& b, double radius, bool large, bool cc
 
 Path reversed(const Path& path) {
   Path out;
-  for (auto it = path.rbegin(); it != path.rend(); ++it) out.push_back(it->reversed());
+  for (auto it = path.rbegin(); it != path.rend(); ++it)
+    out.push_back(it->reversed());
   return out;
 }
 
@@ -101,25 +112,28 @@ std::pair<int, double> ArcLength::locate(double s) const {
       before.segment == after.segment ? before.t : 0.0; // a segment begins where the last one ended
   const double span = after.s - before.s;
   double t = span > 0 ? t0 + (after.t - t0) * (s - before.s) / span : t0;
-  const Segment& segment = (*m_path)[static_cast<std::size_t>(after.segment)];
+  const Segment& segment = (*m_path)[after.segment];
   for (int i = 0; i < 3 && !segment.line; ++i) {
     const double speed = segment.derivative(t).norm();
-    if (speed <= 0) break;
+    if (speed <= 0)
+      break;
     t = std::clamp(t - (segment.length(t0, t) - (s - before.s)) / speed, t0, after.t);
   }
   return {after.segment, t};
 }
 
 Vec2 ArcLength::at(double s) const {
-  if (s <= 0) return m_path->front().p[0];
-  if (s >= length()) return m_path->back().p[3];
+  if (s <= 0)
+    return m_path->front().p[0];
+  if (s >= length())
+    return m_path->back().p[3];
   const auto [segment, t] = locate(s);
-  return (*m_path)[static_cast<std::size_t>(segment)].at(t);
+  return (*m_path)[segment].at(t);
 }
 
 Vec2 ArcLength::tangent(double s) const {
   const auto [segment, t] = locate(std::clamp(s, 0.0, length()));
-  const Segment& curve = (*m_path)[static_cast<std::size_t>(segment)];
+  const Segment& curve = (*m_path)[segment];
   Vec2 d = curve.derivative(t);
   if (d.norm() < 1e-12)
     d = curve.at(std::min(1.0, t + 1e-3)) -
@@ -137,7 +151,8 @@ Segment part_of(const Segment& s, double t0, double t1) {
                p23 = mix(s.p[2], s.p[3], a);
     return mix(mix(p01, p12, b), mix(p12, p23, b), c);
   };
-  if (s.line) return Segment::straight(s.at(t0), s.at(t1));
+  if (s.line)
+    return Segment::straight(s.at(t0), s.at(t1));
   return Segment::cubic(blossom(t0, t0, t0), blossom(t0, t0, t1), blossom(t0, t1, t1),
                         blossom(t1, t1, t1));
 }
@@ -152,11 +167,13 @@ Path ArcLength::between(double s0, double s1) const {
   Path out;
   for (int k = k0; k <= k1; ++k) {
     const double a = k == k0 ? t0 : 0.0, b = k == k1 ? t1 : 1.0;
-    if (b - a < 1e-12) continue;
-    const Segment& segment = (*m_path)[static_cast<std::size_t>(k)];
+    if (b - a < 1e-12)
+      continue;
+    const Segment& segment = (*m_path)[k];
     out.push_back(a == 0 && b == 1 ? segment : part_of(segment, a, b));
   }
-  if (out.empty()) out.push_back(Segment::straight(at(s0), at(s1)));
+  if (out.empty())
+    out.push_back(Segment::straight(at(s0), at(s1)));
   out.front().p[0] = at(s0);
   out.back().p[3] = at(s1);
   return out;

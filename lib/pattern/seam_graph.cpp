@@ -9,14 +9,14 @@ SeamGraph::SeamGraph(const PanelMesh& mesh)
   for (std::size_t p = 0; p < mesh.panels.size(); ++p)
     for (int v = mesh.panels[p].first_vertex;
          v < mesh.panels[p].first_vertex + mesh.panels[p].n_vertices; ++v)
-      m_panel_of[static_cast<std::size_t>(v)] = static_cast<int>(p);
+      m_panel_of[v] = static_cast<int>(p);
   std::vector<std::set<int>> sets(mesh.panels.size());
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) {
       const int p = panel_of(s.a[k]), q = panel_of(s.b[k]);
       if (p != q) {
-        sets[static_cast<std::size_t>(p)].insert(q);
-        sets[static_cast<std::size_t>(q)].insert(p);
+        sets[p].insert(q);
+        sets[q].insert(p);
       }
     }
   for (std::size_t p = 0; p < sets.size(); ++p)
@@ -29,10 +29,13 @@ std::vector<std::vector<std::array<int, 2>>> SeamGraph::between(int p, int q) co
     std::vector<std::array<int, 2>> stitches;
     for (std::size_t k = 0; k < s.a.size(); ++k) {
       const int a = panel_of(s.a[k]), b = panel_of(s.b[k]);
-      if (a == p && b == q) stitches.push_back({s.a[k], s.b[k]});
-      else if (a == q && b == p) stitches.push_back({s.b[k], s.a[k]});
+      if (a == p && b == q)
+        stitches.push_back({s.a[k], s.b[k]});
+      else if (a == q && b == p)
+        stitches.push_back({s.b[k], s.a[k]});
     }
-    if (stitches.size() >= 2) out.push_back(std::move(stitches));
+    if (stitches.size() >= 2)
+      out.push_back(std::move(stitches));
   }
   return out;
 }

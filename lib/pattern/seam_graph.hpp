@@ -12,12 +12,12 @@ namespace sloper::pattern {
 class SeamGraph {
 public:
   explicit SeamGraph(const PanelMesh& mesh);
-  int panel_of(int vertex) const { return m_panel_of[static_cast<std::size_t>(vertex)]; }
+  int panel_of(int vertex) const { return m_panel_of[vertex]; }
   /// Stitches between panels p and q: pairs (vertex of p, vertex of q), by seam. For p = q each
   /// stitch once.
   std::vector<std::vector<std::array<int, 2>>> between(int p, int q) const;
   const std::vector<int>& neighbours(int p) const {
-    return m_neighbours[static_cast<std::size_t>(p)];
+    return m_neighbours[p];
   } ///< ascending, without p
 
 private:

@@ -44,7 +44,8 @@ CameraOptions read_camera(const std::string& path) {
   options.field_height = node.number("field_height_m", 0);
   if (options.field_height < 0 || options.field_height > 1000)
     node.at("field_height_m").fail("json.out-of-range"_id, "is not between 0 and 1000");
-  if (node.has("target")) options.target = node.at("target").vec3();
+  if (node.has("target"))
+    options.target = node.at("target").vec3();
   return options;
 }
 
@@ -88,7 +89,8 @@ Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& opt
   camera.turn.row(1) = Vec3(camera.turn.row(2)).cross(Vec3(camera.turn.row(0)));
   Box3 box;
   for (const DrawMesh& mesh : meshes)
-    for (const Vec3& p : mesh.positions) box.add(camera.turn * p);
+    for (const Vec3& p : mesh.positions)
+      box.add(camera.turn * p);
   const Vec3 half = 0.5 * box.size().cwiseMax(Vec3::Constant(1e-3));
   camera.center = options.target ? *options.target : Vec3(camera.turn.transpose() * box.center());
   const Vec3 c = camera.turn * camera.center;
@@ -96,7 +98,8 @@ Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& opt
   const double tangent = std::tan(0.5 * options.field_of_view);
   if (options.field_height > 0) {
     camera.half_height = 0.5 * options.field_height;
-    if (tangent > 0) camera.distance = camera.half_height / tangent;
+    if (tangent > 0)
+      camera.distance = camera.half_height / tangent;
   } else if (tangent == 0) {
     camera.half_height = MARGIN * std::max(half.y(), half.x() / width_over_height);
   } else { // as near as all points allow
@@ -132,22 +135,28 @@ void share_scale(const std::vector<DrawMesh>& meshes,
       half_height = std::max(
           half_height, frame_beside(meshes, *view, width_over_height, left, right).half_height);
   for (auto& view : views)
-    if (view) view->field_height = 2 * half_height;
+    if (view)
+      view->field_height = 2 * half_height;
 }
 
 CameraOptions named_view(const std::string& view) {
   CameraOptions options;
   options.elevation = units::radians(6);
-  if (view == "front") return options;
+  if (view == "front")
+    return options;
   options.azimuth = units::PI;
-  if (view == "back") return options;
+  if (view == "back")
+    return options;
   options.azimuth = 0.5 * units::PI;
-  if (view == "left") return options;
+  if (view == "left")
+    return options;
   options.azimuth = -0.5 * units::PI;
-  if (view == "right") return options;
+  if (view == "right")
+    return options;
   options.azimuth = units::radians(35);
   options.elevation = units::radians(14);
-  if (view == "iso") return options;
+  if (view == "iso")
+    return options;
   throw unknown_word("--view", view,
                      {"front", "back", "left", "right", "iso", "pattern", "turntable:8"},
                      "known are front, back, left, right, iso, pattern and turntable:N");

@@ -17,7 +17,8 @@ constexpr double NEIGHBOURS = 0.2; // shares of the vertices of a triangle diffe
 struct PlaceHash {
   std::size_t operator()(const std::array<double, 3>& p) const {
     std::size_t h = 14695981039346656037ULL;
-    for (double x : p) h = (h ^ std::hash<double>()(x)) * 1099511628211ULL;
+    for (double x : p)
+      h = (h ^ std::hash<double>()(x)) * 1099511628211ULL;
     return h;
   }
 };
@@ -25,13 +26,15 @@ struct PlaceHash {
 bool share_vertex(const Triangle& a, const Triangle& b) {
   for (int u : a)
     for (int v : b)
-      if (u == v) return true;
+      if (u == v)
+        return true;
   return false;
 }
 
 Box3 box_of(const std::array<Vec3, 3>& corners) {
   Box3 box;
-  for (const Vec3& p : corners) box.add(p);
+  for (const Vec3& p : corners)
+    box.add(p);
   return box;
 }
 
@@ -55,7 +58,8 @@ void follow_neighbours(const std::vector<Triangle>& triangles, std::vector<doubl
     lowered = false;
     for (const Triangle& t : triangles) {
       const double least = std::min({share[t[0]], share[t[1]], share[t[2]]});
-      if (least == 1) continue;
+      if (least == 1)
+        continue;
       for (int v : t)
         if (share[v] > least + NEIGHBOURS + 1e-12) {
           share[v] = least + NEIGHBOURS;
@@ -71,8 +75,9 @@ ClothClearance::ClothClearance(const std::vector<DrawMesh>& meshes) : m_vertex_o
   weld(meshes);
   build_tree(meshes);
   for (const DrawMesh& mesh : meshes) {
-    if (mesh.is_cloth || mesh.is_flat) continue;
-    const int first = static_cast<int>(m_obstacle_mesh.positions.size());
+    if (mesh.is_cloth || mesh.is_flat)
+      continue;
+    const int first = std::ssize(m_obstacle_mesh.positions);
     m_obstacle_mesh.positions.insert(m_obstacle_mesh.positions.end(), mesh.positions.begin(),
                                      mesh.positions.end());
     for (const Triangle& t : mesh.triangles)
@@ -85,16 +90,19 @@ ClothClearance::ClothClearance(const std::vector<DrawMesh>& meshes) : m_vertex_o
 void ClothClearance::weld(const std::vector<DrawMesh>& meshes) {
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const DrawMesh& mesh = meshes[m];
-    if (mesh.flat.empty()) continue;
+    if (mesh.flat.empty())
+      continue;
     std::vector<char> on_border(mesh.flat.size());
     for (const auto& line : mesh.lines)
-      for (int v : line) on_border[v] = 1;
+      for (int v : line)
+        on_border[v] = 1;
     std::unordered_map<std::array<double, 3>, int, PlaceHash> at; // borders alone are sewn
     for (std::size_t v = 0; v < mesh.flat.size(); ++v) {
       const Vec3& p = mesh.flat[v];
-      int vertex = static_cast<int>(m_flat.size());
-      if (on_border[v]) vertex = at.try_emplace({p.x(), p.y(), p.z()}, vertex).first->second;
-      if (vertex == static_cast<int>(m_flat.size())) {
+      int vertex = std::ssize(m_flat);
+      if (on_border[v])
+        vertex = at.try_emplace({p.x(), p.y(), p.z()}, vertex).first->second;
+      if (vertex == std::ssize(m_flat)) {
         m_positions.push_back(mesh.positions[v]);
         m_flat.push_back(p);
       }
@@ -107,17 +115,20 @@ void ClothClearance::weld(const std::vector<DrawMesh>& meshes) {
 
 /// The order of the draped triangles, each followed by its pieces: to sort the pieces costs more.
 void ClothClearance::build_tree(const std::vector<DrawMesh>& meshes) {
-  if (m_triangles.empty()) return;
+  if (m_triangles.empty())
+    return;
   std::vector<Vec3> corners;
   std::vector<Triangle> draped;
   std::vector<std::array<int, 2>> pieces; // first and count, by draped triangle
   int first = 0;
   for (const DrawMesh& mesh : meshes) {
-    if (mesh.flat.empty()) continue;
+    if (mesh.flat.empty())
+      continue;
     for (std::size_t f = 0; f < mesh.triangles.size(); f += mesh.pieces, first += mesh.pieces) {
       Vec3 middle = Vec3::Zero();
-      for (int v : mesh.triangles[f]) middle += mesh.flat[v] / 3;
-      const int corner = static_cast<int>(corners.size());
+      for (int v : mesh.triangles[f])
+        middle += mesh.flat[v] / 3;
+      const int corner = std::ssize(corners);
       corners.push_back(middle);
       draped.push_back({corner, corner, corner});
       pieces.push_back({first, mesh.pieces});
@@ -127,7 +138,8 @@ void ClothClearance::build_tree(const std::vector<DrawMesh>& meshes) {
   order.reserve(m_triangles.size());
   const collision::TriangleTree by_place(corners, draped);
   for (int f : by_place.triangle_order())
-    for (int k = 0; k < pieces[f][1]; ++k) order.push_back(pieces[f][0] + k);
+    for (int k = 0; k < pieces[f][1]; ++k)
+      order.push_back(pieces[f][0] + k);
   m_tree = {m_positions, m_triangles, 6, std::move(order)};
 }
 
@@ -160,12 +172,15 @@ int ClothClearance::keep_clear(std::vector<DrawMesh>& meshes) {
   for (int round = 0; round < MAX_ROUNDS && !found.empty(); ++round) {
     std::vector<double> next = share;
     for (int f : found)
-      for (int v : m_triangles[f]) next[v] = std::max(0.0, share[v] - STEP);
+      for (int v : m_triangles[f])
+        next[v] = std::max(0.0, share[v] - STEP);
     follow_neighbours(m_triangles, next);
-    if (next == share) break;
+    if (next == share)
+      break;
     std::vector<char> moved(share.size());
     for (std::size_t v = 0; v < share.size(); ++v) {
-      if (next[v] == share[v]) continue;
+      if (next[v] == share[v])
+        continue;
       moved[v] = 1;
       m_positions[v] = m_flat[v] + next[v] * (smooth[v] - m_flat[v]);
     }
@@ -174,7 +189,8 @@ int ClothClearance::keep_clear(std::vector<DrawMesh>& meshes) {
     // A pair crosses anew only where one of the two moved; what crossed and stayed is kept.
     asked.clear();
     std::vector<char> is_asked(m_triangles.size());
-    for (int f : found) is_asked[f] = 1;
+    for (int f : found)
+      is_asked[f] = 1;
     for (std::size_t f = 0; f < m_triangles.size(); ++f) {
       const Triangle& t = m_triangles[f];
       if (is_asked[f] || moved[t[0]] || moved[t[1]] || moved[t[2]])
@@ -194,13 +210,14 @@ std::vector<char> ClothClearance::crossing_rims(const std::vector<RimTriangle>& 
   std::vector<std::array<int, 2>> border, own; // welded
   for (const RimTriangle& rim : rims) {
     const std::vector<int>& vertex_of = m_vertex_of[rim.mesh];
-    const int first = static_cast<int>(corners.size());
+    const int first = std::ssize(corners);
     corners.insert(corners.end(), rim.corners.begin(), rim.corners.end());
     triangles.push_back({first, first + 1, first + 2});
     border.push_back({vertex_of[rim.border[0]], vertex_of[rim.border[1]]});
     own.push_back({vertex_of[rim.own[0]], vertex_of[rim.own[1]]});
   }
-  if (rims.empty()) return {};
+  if (rims.empty())
+    return {};
   const collision::TriangleTree tree(corners, triangles);
   std::vector<char> crosses(rims.size());
   parallel_for(rims.size(), collision::SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {

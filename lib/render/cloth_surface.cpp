@@ -18,7 +18,7 @@ constexpr double MOST_IN = 0.0002, MOST_OUT = 0.003; // m, in each round
 constexpr double LEAST_RIM = 0.0012;                 // m: thinner rims cannot be seen
 
 int mid_vertex(DrawMesh& mesh, int a, int b) {
-  const int m = static_cast<int>(mesh.positions.size());
+  const int m = std::ssize(mesh.positions);
   const Vec3 p = mesh.positions[a], q = mesh.positions[b], np = mesh.normals[a],
              nq = mesh.normals[b], flat = 0.5 * (p + q);
   const Vec3 on_p = flat - (flat - p).dot(np) * np, on_q = flat - (flat - q).dot(nq) * nq;
@@ -27,7 +27,8 @@ int mid_vertex(DrawMesh& mesh, int a, int b) {
   // each other.
   Vec3 curved = CURVE * (0.5 * (on_p + on_q) - flat);
   const double most = curved.dot(n) < 0 ? MOST_IN : MOST_OUT, length = curved.norm();
-  if (length > most) curved *= most / length;
+  if (length > most)
+    curved *= most / length;
   mesh.positions.push_back(flat + curved);
   mesh.flat.push_back(0.5 * (mesh.flat[a] + mesh.flat[b]));
   mesh.normals.push_back(n);
@@ -37,8 +38,10 @@ int mid_vertex(DrawMesh& mesh, int a, int b) {
   if (!mesh.values.empty()) {
     const double x = mesh.values[a], y = mesh.values[b];
     double middle = 0.5 * (x + y);
-    if (y == NO_VALUE) middle = x;
-    if (x == NO_VALUE) middle = y;
+    if (y == NO_VALUE)
+      middle = x;
+    if (x == NO_VALUE)
+      middle = y;
     mesh.values.push_back(middle);
   }
   return m;
@@ -52,7 +55,8 @@ void quarter_triangles(DrawMesh& mesh) {
     const auto key = static_cast<std::uint64_t>(std::min(a, b)) << 32 |
                      static_cast<std::uint64_t>(std::max(a, b));
     const auto [found, is_new] = middle.try_emplace(key, 0);
-    if (is_new) found->second = mid_vertex(mesh, std::min(a, b), std::max(a, b));
+    if (is_new)
+      found->second = mid_vertex(mesh, std::min(a, b), std::max(a, b));
     return found->second;
   };
   std::vector<Triangle> finer;
@@ -108,14 +112,16 @@ void measure_borders(DrawMesh& mesh) {
   for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
     const Vec2 a = mesh.uv[mesh.lines[k][0]], b = mesh.uv[mesh.lines[k][1]], low = a.cwiseMin(b),
                high = a.cwiseMax(b);
-    if ((high - low).maxCoeff() > 1) continue; // no fabric has such an edge
+    if ((high - low).maxCoeff() > 1)
+      continue; // no fabric has such an edge
     for (std::int64_t y = cell(low.y()) - 1; y <= cell(high.y()) + 1; ++y)
       for (std::int64_t x = cell(low.x()) - 1; x <= cell(high.x()) + 1; ++x)
         grid[key(mesh.panel_of[mesh.lines[k][0]], x, y)].lines.push_back(static_cast<int>(k));
   }
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const auto found = grid.find(key(mesh.panel_of[v], cell(mesh.uv[v].x()), cell(mesh.uv[v].y())));
-    if (found == grid.end()) continue;
+    if (found == grid.end())
+      continue;
     for (int k : found->second.lines) {
       double& nearest = mesh.is_hem[k] ? mesh.hem[v] : mesh.seam[v];
       nearest = std::min(nearest, distance_to_segment(mesh.uv[v], mesh.uv[mesh.lines[k][0]],
@@ -132,7 +138,9 @@ std::array<std::array<Vec3, 3>, 2> rim_corners(const DrawMesh& mesh, int a, int 
   return {{{p, q, below_q}, {p, below_q, below_p}}};
 }
 
-double rim_thickness(const DrawMesh& mesh) { return std::max(mesh.thickness, LEAST_RIM); }
+double rim_thickness(const DrawMesh& mesh) {
+  return std::max(mesh.thickness, LEAST_RIM);
+}
 
 /// A strip along each free border: the edge of the fabric.
 /// @param left_out  by line: there is no room for one
@@ -152,12 +160,14 @@ void add_rim(DrawMesh& mesh, const std::vector<char>& left_out) {
       mesh.panel_of.push_back(mesh.panel_of[v]);
       mesh.seam.push_back(BORDER_REACH);
       mesh.hem.push_back(0);
-      if (!mesh.values.empty()) mesh.values.push_back(mesh.values[v]);
+      if (!mesh.values.empty())
+        mesh.values.push_back(mesh.values[v]);
     }
     return found->second;
   };
   for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
-    if (!mesh.is_hem[k] || left_out[k]) continue;
+    if (!mesh.is_hem[k] || left_out[k])
+      continue;
     const int a = mesh.lines[k][0], b = mesh.lines[k][1], c = copy(a), d = copy(b);
     mesh.triangles.push_back({a, b, d});
     mesh.triangles.push_back({a, d, c});
@@ -173,9 +183,11 @@ std::vector<std::vector<char>> rims_without_room(const std::vector<DrawMesh>& me
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const DrawMesh& mesh = meshes[m];
     left_out[m].resize(mesh.lines.size());
-    if (mesh.flat.empty()) continue;
+    if (mesh.flat.empty())
+      continue;
     for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
-      if (!mesh.is_hem[k]) continue;
+      if (!mesh.is_hem[k])
+        continue;
       const auto [a, b] = mesh.lines[k];
       const auto corners = rim_corners(mesh, a, b, rim_thickness(mesh));
       rims.push_back({static_cast<int>(m), {a, b}, {a, b}, corners[0]});
@@ -185,7 +197,8 @@ std::vector<std::vector<char>> rims_without_room(const std::vector<DrawMesh>& me
   }
   const std::vector<char> crosses = clearance.crossing_rims(rims);
   for (std::size_t i = 0; i < crosses.size(); ++i)
-    if (crosses[i]) left_out[from[i][0]][from[i][1]] = 1;
+    if (crosses[i])
+      left_out[from[i][0]][from[i][1]] = 1;
   return left_out;
 }
 
@@ -193,7 +206,8 @@ std::vector<std::vector<char>> rims_without_room(const std::vector<DrawMesh>& me
 
 void smooth_cloth(std::vector<DrawMesh>& meshes) {
   for (DrawMesh& mesh : meshes) {
-    if (!mesh.is_cloth || mesh.triangles.empty() || mesh.uv.empty()) continue;
+    if (!mesh.is_cloth || mesh.triangles.empty() || mesh.uv.empty())
+      continue;
     mesh.flat = mesh.positions;
     double sum = 0;
     for (const Triangle& t : mesh.triangles)
@@ -208,7 +222,8 @@ void smooth_cloth(std::vector<DrawMesh>& meshes) {
   clearance.keep_clear(meshes);
   const std::vector<std::vector<char>> left_out = rims_without_room(meshes, clearance);
   for (std::size_t m = 0; m < meshes.size(); ++m)
-    if (!meshes[m].flat.empty()) add_rim(meshes[m], left_out[m]);
+    if (!meshes[m].flat.empty())
+      add_rim(meshes[m], left_out[m]);
 }
 
 } // namespace sloper::render

@@ -44,7 +44,8 @@ public:
                               3,
                               0};
     m_context = OSMesaCreateContextAttribs(attributes, nullptr);
-    if (!m_context) no_context(ContextKind::OSMESA, "OSMesa gives no OpenGL 3.3 context");
+    if (!m_context)
+      no_context(ContextKind::OSMESA, "OSMesa gives no OpenGL 3.3 context");
     make_current();
   }
   ~OsmesaContext() override { OSMesaDestroyContext(m_context); }
@@ -129,10 +130,12 @@ std::unique_ptr<Context> make_context(ContextKind kind) {
   // made.
   setenv("LP_NUM_THREADS", thread_count() > 1 ? std::to_string(thread_count()).c_str() : "0", 0);
 #ifdef SLOPER_HAVE_OSMESA
-  if (kind == ContextKind::OSMESA) return std::make_unique<OsmesaContext>();
+  if (kind == ContextKind::OSMESA)
+    return std::make_unique<OsmesaContext>();
 #endif
 #ifdef SLOPER_HAVE_EGL
-  if (kind == ContextKind::EGL) return std::make_unique<EglContext>();
+  if (kind == ContextKind::EGL)
+    return std::make_unique<EglContext>();
 #endif
   throw Error(ErrorKind::USAGE, "render.context-not-built"_id, "",
               kind == ContextKind::EGL ? "--context egl" : "--context osmesa",

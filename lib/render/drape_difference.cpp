@@ -34,18 +34,21 @@ public:
       const Triangle& t = m_garment.panels.triangles[f];
       const Vec2 a = at(t[0]), b = at(t[1]) - a, c = at(t[2]) - a, p = st - a;
       const double area = b.x() * c.y() - c.x() * b.y();
-      if (std::abs(area) < 1e-14) continue;
+      if (std::abs(area) < 1e-14)
+        continue;
       Vec3 w(0, (p.x() * c.y() - c.x() * p.y()) / area, (b.x() * p.y() - p.x() * b.y()) / area);
       w.x() = 1 - w.y() - w.z();
       const Vec3 inside = w.cwiseMax(0.0) / w.cwiseMax(0.0).sum();
       const double off = (a + inside.y() * b + inside.z() * c - st).norm(); // 0 inside
-      if (off >= best) continue;
+      if (off >= best)
+        continue;
       best = off;
       found = true;
       point = Vec3::Zero();
       for (int k = 0; k < 3; ++k)
         point += inside[k] * m_garment.position[m_garment.particle_of[t[k]]];
-      if (off < SAME * SAME) break;
+      if (off < SAME * SAME)
+        break;
     }
     return found;
   }
@@ -68,7 +71,8 @@ std::vector<double> drape_difference(const garment::Garment& a, const garment::G
     const auto like =
         std::find_if(b.panels.panels.begin(), b.panels.panels.end(),
                      [&](const pattern::PanelInfo& other) { return other.name == panel.name; });
-    if (like == b.panels.panels.end()) continue;
+    if (like == b.panels.panels.end())
+      continue;
     common = true;
     const PanelLookup lookup(b, static_cast<int>(like - b.panels.panels.begin()));
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
@@ -81,7 +85,8 @@ std::vector<double> drape_difference(const garment::Garment& a, const garment::G
           std::abs(b.panels.ids[other].s - id.s) < SAME &&
           std::abs(b.panels.ids[other].t - id.t) < SAME)
         result[v] = (p - b.position[b.particle_of[other]]).norm();
-      else if (lookup.find({id.s, id.t}, q)) result[v] = (p - q).norm();
+      else if (lookup.find({id.s, id.t}, q))
+        result[v] = (p - q).norm();
     }
   }
   if (!common)

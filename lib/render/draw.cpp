@@ -29,14 +29,16 @@ constexpr double LINE_LIFT =
 enum Kind { BODY = 0, CLOTH = 1, FLAT = 2, GROUND = 3 };
 
 void put(float* to, const Vec3& v) {
-  for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(v[k]);
+  for (int k = 0; k < 3; ++k)
+    to[k] = static_cast<float>(v[k]);
 }
 
 /// A disc of floor below everything; its uv run over the unit disc.
 DrawMesh make_ground(const std::vector<DrawMesh>& meshes) {
   Box3 box;
   for (const DrawMesh& mesh : meshes)
-    for (const Vec3& p : mesh.positions) box.add(p);
+    for (const Vec3& p : mesh.positions)
+      box.add(p);
   DrawMesh ground;
   const double reach = 0.35 * box.size().norm();
   const Vec3 center(box.center().x(), box.low.y() - 0.001, box.center().z());
@@ -48,7 +50,8 @@ DrawMesh make_ground(const std::vector<DrawMesh>& meshes) {
       ground.positions.push_back(center + reach * Vec3(uv.x(), 0, uv.y()));
       ground.normals.push_back(Vec3(0, 1, 0));
       ground.colors.push_back(Vec3::Zero());
-      if (r == 0) continue;
+      if (r == 0)
+        continue;
       const int a0 = (r - 1) * GROUND_SPOKES + s,
                 a1 = (r - 1) * GROUND_SPOKES + (s + 1) % GROUND_SPOKES, b0 = a0 + GROUND_SPOKES,
                 b1 = a1 + GROUND_SPOKES;
@@ -85,7 +88,8 @@ struct Renderer::Impl {
       : meshes(m), options(o), context(make_context(o.context)), gl(*context) {
     make_framebuffer();
     line_program = gl.program(LINE_VERTEX_SHADER, LINE_FRAGMENT_SHADER);
-    if (options.ground) ground = make_ground(meshes);
+    if (options.ground)
+      ground = make_ground(meshes);
     gather_vertices();
     load_print();
   }
@@ -126,10 +130,9 @@ struct Renderer::Impl {
     for (const Triangle& t : triangles)
       for (int v : t)
         for (int w : t)
-          if (const SurfaceVertex& from = vertices[static_cast<std::size_t>(base + w)];
-              from.value[2] > 0) {
-            sum[static_cast<std::size_t>(v)][0] += from.value[0];
-            sum[static_cast<std::size_t>(v)][1] += 1;
+          if (const SurfaceVertex& from = vertices[base + w]; from.value[2] > 0) {
+            sum[v][0] += from.value[0];
+            sum[v][1] += 1;
           }
     for (std::size_t v = 0; v < sum.size(); ++v)
       if (SurfaceVertex& to = vertices[static_cast<std::size_t>(base) + v];
@@ -139,7 +142,7 @@ struct Renderer::Impl {
 
   void append(const DrawMesh& mesh, int kind, std::vector<GLuint>& indices,
               std::vector<LineVertex>& lines, std::vector<GLuint>& line_indices) {
-    const int base = static_cast<int>(vertices.size());
+    const int base = std::ssize(vertices);
     const bool mapped = !options.map_colors.empty() && !mesh.values.empty();
     Part part{kind,
               static_cast<int>(indices.size()),
@@ -173,9 +176,11 @@ struct Renderer::Impl {
       points.push_back(mesh.positions[v]);
       normals.push_back(mesh.normals[v]);
     }
-    if (mapped) carry_values_over_the_border(mesh.triangles, base);
+    if (mapped)
+      carry_values_over_the_border(mesh.triangles, base);
     for (const Triangle& t : mesh.triangles)
-      for (int v : t) indices.push_back(static_cast<GLuint>(base + v));
+      for (int v : t)
+        indices.push_back(static_cast<GLuint>(base + v));
     if (options.border_lines)
       for (const auto& [a, b] : mesh.lines) {
         const auto at = static_cast<GLuint>(lines.size());
@@ -190,7 +195,8 @@ struct Renderer::Impl {
             out.color[3] = side;
             lines.push_back(out);
           }
-        for (GLuint k : {0u, 1u, 2u, 2u, 3u, 0u}) line_indices.push_back(at + k);
+        for (GLuint k : {0u, 1u, 2u, 2u, 3u, 0u})
+          line_indices.push_back(at + k);
       }
     part.n_lines = static_cast<int>(line_indices.size()) - part.first_line;
     parts.push_back(part);
@@ -201,16 +207,20 @@ struct Renderer::Impl {
     std::vector<LineVertex> lines;
     for (bool cloth : {true, false})
       for (const DrawMesh& mesh : meshes) {
-        if (mesh.is_cloth != cloth) continue;
+        if (mesh.is_cloth != cloth)
+          continue;
         const auto solid = cloth ? CLOTH : BODY;
         append(mesh, mesh.is_flat ? FLAT : solid, indices, lines, line_indices);
       }
-    if (!ground.positions.empty()) append(ground, GROUND, indices, lines, line_indices);
+    if (!ground.positions.empty())
+      append(ground, GROUND, indices, lines, line_indices);
     if (options.occlusion_directions > 0) {
       occlusion = std::make_unique<Occlusion>(meshes);
       const std::vector<float> sky = occlusion->sky(points, normals, options.occlusion_directions);
-      for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v].color[3] = sky[v];
-      if (!ground.positions.empty()) soften_ground();
+      for (std::size_t v = 0; v < vertices.size(); ++v)
+        vertices[v].color[3] = sky[v];
+      if (!ground.positions.empty())
+        soften_ground();
     }
     auto upload = [&](GLuint& array, GLuint& buffer, const auto& data,
                       const std::vector<GLuint>& elements, std::initializer_list<int> sizes) {
@@ -235,7 +245,8 @@ struct Renderer::Impl {
         offset += static_cast<std::size_t>(size) * sizeof(float);
       }
     };
-    if (!lines.empty()) upload(line_array, line_buffer, lines, line_indices, {3, 3, 4});
+    if (!lines.empty())
+      upload(line_array, line_buffer, lines, line_indices, {3, 3, 4});
     upload(surface_array, surface_buffer, vertices, indices, {3, 3, 4, 4, 3});
   }
 
@@ -243,7 +254,8 @@ struct Renderer::Impl {
   void soften_ground() {
     const std::size_t first = vertices.size() - ground.positions.size();
     std::vector<float> light(ground.positions.size());
-    for (std::size_t v = 0; v < light.size(); ++v) light[v] = vertices[first + v].color[3];
+    for (std::size_t v = 0; v < light.size(); ++v)
+      light[v] = vertices[first + v].color[3];
     for (int round = 0; round < 6; ++round) {
       const std::vector<float> before = light;
       for (int r = 0; r <= GROUND_RINGS; ++r)
@@ -252,18 +264,19 @@ struct Renderer::Impl {
           for (int dr = -1; dr <= 1; ++dr)
             for (int ds = -2; ds <= 2; ++ds) {
               const int q = std::clamp(r + dr, 0, GROUND_RINGS);
-              sum += before[static_cast<std::size_t>(q * GROUND_SPOKES +
-                                                     (s + ds + GROUND_SPOKES) % GROUND_SPOKES)];
+              sum += before[q * GROUND_SPOKES + (s + ds + GROUND_SPOKES) % GROUND_SPOKES];
               ++weight;
             }
-          light[static_cast<std::size_t>(r * GROUND_SPOKES + s)] = sum / weight;
+          light[r * GROUND_SPOKES + s] = sum / weight;
         }
     }
-    for (std::size_t v = 0; v < light.size(); ++v) vertices[first + v].color[3] = light[v];
+    for (std::size_t v = 0; v < light.size(); ++v)
+      vertices[first + v].color[3] = light[v];
   }
 
   void load_print() {
-    if (options.print.rgba.empty()) return;
+    if (options.print.rgba.empty())
+      return;
     GLuint texture = 0;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
@@ -275,13 +288,15 @@ struct Renderer::Impl {
 
   /// The key light goes round with the viewer, so that every view is lit alike.
   void light_from(double azimuth) {
-    if (!occlusion || azimuth == lit_azimuth) return;
+    if (!occlusion || azimuth == lit_azimuth)
+      return;
     lit_azimuth = azimuth;
     const Vec3 right(std::cos(azimuth), 0, -std::sin(azimuth)),
         front(std::sin(azimuth), 0, std::cos(azimuth));
     const Vec3 towards = (-0.62 * right + Vec3(0, 0.60, 0) + 0.50 * front).normalized();
     const std::vector<float> key = occlusion->key(points, normals, towards, 0.16);
-    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v].value[1] = key[v];
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      vertices[v].value[1] = key[v];
     gl.BindBuffer(GL_ARRAY_BUFFER, surface_buffer);
     gl.BufferSubData(GL_ARRAY_BUFFER, 0,
                      static_cast<GLsizeiptr>(vertices.size() * sizeof vertices[0]),
@@ -316,7 +331,8 @@ struct Renderer::Impl {
     gl.Uniform3f(at("accent"), 0.78f, 0.76f, 0.70f);
     if (options.map_colors.size() == 8) {
       float scale[24];
-      for (int k = 0; k < 8; ++k) put(scale + 3 * k, options.map_colors[k]);
+      for (int k = 0; k < 8; ++k)
+        put(scale + 3 * k, options.map_colors[k]);
       gl.Uniform3fv(at("scale"), 8, scale);
       const Vec3 none = no_value_color();
       gl.Uniform3f(at("no_value"), static_cast<float>(none.x()), static_cast<float>(none.y()),
@@ -340,20 +356,23 @@ struct Renderer::Impl {
                  static_cast<float>(LINE_LIFT / camera.half_depth));
     for (const Part& part : parts) {
       const bool ground_seen = part.kind == GROUND && camera.elevation > units::radians(2);
-      if (part.kind == GROUND && !ground_seen) continue;
+      if (part.kind == GROUND && !ground_seen)
+        continue;
       use_surface(part.kind, camera);
       gl.BindVertexArray(surface_array);
       if (part.kind == GROUND) {
         gl.Enable(GL_BLEND);
         gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
       }
-      if (part.is_closed) gl.Enable(GL_CULL_FACE);
+      if (part.is_closed)
+        gl.Enable(GL_CULL_FACE);
       gl.DrawElements(GL_TRIANGLES, part.n_indices, GL_UNSIGNED_INT,
                       reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_index) *
                                                     sizeof(GLuint)));
       gl.Disable(GL_BLEND);
       gl.Disable(GL_CULL_FACE);
-      if (part.n_lines == 0) continue;
+      if (part.n_lines == 0)
+        continue;
       gl.UseProgram(line_program);
       gl.BindVertexArray(line_array);
       gl.DrawElements(GL_TRIANGLES, part.n_lines, GL_UNSIGNED_INT,
@@ -435,8 +454,12 @@ struct Renderer::Impl {
 Renderer::Renderer(const std::vector<DrawMesh>& meshes, const DrawOptions& options)
     : m_impl(std::make_unique<Impl>(meshes, options)) {}
 Renderer::~Renderer() = default;
-io::Image Renderer::draw(const Camera& camera) { return m_impl->draw(camera); }
-void Renderer::keep_depth(bool yes) { m_impl->wants_depth = yes; }
+io::Image Renderer::draw(const Camera& camera) {
+  return m_impl->draw(camera);
+}
+void Renderer::keep_depth(bool yes) {
+  m_impl->wants_depth = yes;
+}
 
 bool Renderer::is_visible(const Vec3& pixel, double slack) const {
   const Impl& impl = *m_impl;

@@ -30,8 +30,10 @@ std::string extension(const std::string& path) {
 }
 
 Vec3 shown_color(const DrawMesh& mesh, std::size_t v, const Legend& legend) {
-  if (mesh.values.empty() || legend.steps.empty()) return mesh.colors[v];
-  if (mesh.values[v] == NO_VALUE) return no_value_color();
+  if (mesh.values.empty() || legend.steps.empty())
+    return mesh.colors[v];
+  if (mesh.values[v] == NO_VALUE)
+    return no_value_color();
   const double t =
       std::clamp((mesh.values[v] - legend.low) / (legend.high - legend.low), 0.0, 0.9999);
   return legend.steps[static_cast<std::size_t>(t * static_cast<double>(legend.steps.size()))];
@@ -96,19 +98,22 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
       normals.push_back(static_cast<float>(n[k]));
       colors.push_back(static_cast<float>(c[k]));
     }
-    if (mesh.uv.empty()) continue;
+    if (mesh.uv.empty())
+      continue;
     uv.push_back(static_cast<float>(mesh.uv[v].x() / (printed ? print_size : 1)));
     uv.push_back(static_cast<float>(-mesh.uv[v].y() / (printed ? print_size : 1)));
   }
   std::vector<std::uint32_t> indices;
-  for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
+  for (const Triangle& t : mesh.triangles)
+    indices.insert(indices.end(), t.begin(), t.end());
   io::Json attributes;
   attributes["POSITION"] = buffer.add_floats(positions, 3, "VEC3");
   buffer.accessors.back()["min"] = {low.x(), low.y(), low.z()};
   buffer.accessors.back()["max"] = {high.x(), high.y(), high.z()};
   attributes["NORMAL"] = buffer.add_floats(normals, 3, "VEC3");
   attributes["COLOR_0"] = buffer.add_floats(colors, 3, "VEC3");
-  if (!uv.empty()) attributes["TEXCOORD_0"] = buffer.add_floats(uv, 2, "VEC2");
+  if (!uv.empty())
+    attributes["TEXCOORD_0"] = buffer.add_floats(uv, 2, "VEC2");
   if (skin) {
     std::vector<std::uint16_t> joints;
     std::vector<float> weights;
@@ -125,7 +130,8 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
   const int elements = buffer.add(indices.data(), indices.size() * sizeof(std::uint32_t),
                                   indices.size(), GLTF_UNSIGNED_INT, "SCALAR", GLTF_ELEMENTS);
   int material = mesh.is_cloth ? 1 : 0;
-  if (printed) material = 2;
+  if (printed)
+    material = 2;
   return {{"name", mesh.name},
           {"primitives",
            {{{"attributes", attributes}, {"indices", elements}, {"material", material}}}}};
@@ -138,19 +144,21 @@ io::Json add_skin(GlbBuffer& buffer, io::Json& nodes, const Rig& rig) {
   std::vector<float> inverse;
   io::Json joints = io::Json::array();
   for (std::size_t j = 0; j < rig.names.size(); ++j) {
-    const Vec3 from = rig.parent[j] < 0 ? Vec3(0, 0, 0)
-                                        : rig.head[static_cast<std::size_t>(rig.parent[j])],
+    const Vec3 from = rig.parent[j] < 0 ? Vec3(0, 0, 0) : rig.head[rig.parent[j]],
                at = rig.head[j] - from;
     io::Json children = io::Json::array();
     for (std::size_t k = j + 1; k < rig.names.size(); ++k)
-      if (rig.parent[k] == static_cast<int>(j)) children.push_back(first + k);
+      if (rig.parent[k] == static_cast<int>(j))
+        children.push_back(first + k);
     nodes.push_back({{"name", rig.names[j]}, {"translation", {at.x(), at.y(), at.z()}}});
-    if (!children.empty()) nodes.back()["children"] = children;
+    if (!children.empty())
+      nodes.back()["children"] = children;
     joints.push_back(first + j);
     Mat4 matrix = Mat4::Identity();
     matrix.block<3, 1>(0, 3) = -rig.head[j];
     for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row) inverse.push_back(static_cast<float>(matrix(row, column)));
+      for (int row = 0; row < 4; ++row)
+        inverse.push_back(static_cast<float>(matrix(row, column)));
   }
   const int matrices = buffer.add_floats(inverse, 4 * 4, "MAT4");
   buffer.views.back().erase("target"); // no vertex attribute
@@ -172,9 +180,12 @@ std::string obj_text(const std::vector<DrawMesh>& meshes, const std::string& mat
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const DrawMesh& mesh = meshes[m];
     text += "o " + mesh.name + "\nusemtl mesh" + std::to_string(m + 1) + "\n";
-    for (const Vec3& p : mesh.positions) line("v", {p.x(), p.y(), p.z()});
-    for (const Vec2& p : mesh.uv) line("vt", {p.x(), p.y()});
-    for (const Vec3& n : mesh.normals) line("vn", {n.x(), n.y(), n.z()});
+    for (const Vec3& p : mesh.positions)
+      line("v", {p.x(), p.y(), p.z()});
+    for (const Vec2& p : mesh.uv)
+      line("vt", {p.x(), p.y()});
+    for (const Vec3& n : mesh.normals)
+      line("vn", {n.x(), n.y(), n.z()});
     for (const Triangle& t : mesh.triangles) {
       text += 'f';
       for (int v : t) {
@@ -223,7 +234,8 @@ std::string ply_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
   for (const DrawMesh& mesh : meshes)
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       for (const Vec3& p : {mesh.positions[v], mesh.normals[v]})
-        for (int k = 0; k < 3; ++k) append(bytes, static_cast<float>(p[k]));
+        for (int k = 0; k < 3; ++k)
+          append(bytes, static_cast<float>(p[k]));
       const Vec3 c = shown_color(mesh, v, legend);
       for (int k = 0; k < 3; ++k)
         append(bytes,
@@ -236,7 +248,8 @@ std::string ply_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
   for (const DrawMesh& mesh : meshes) {
     for (const Triangle& t : mesh.triangles) {
       append(bytes, static_cast<std::uint8_t>(3));
-      for (int v : t) append(bytes, static_cast<std::int32_t>(base + v));
+      for (int v : t)
+        append(bytes, static_cast<std::int32_t>(base + v));
     }
     base += static_cast<int>(mesh.positions.size());
   }
@@ -247,7 +260,8 @@ std::string ply_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
 
 std::string values_ply(const Scene& scene, const Legend& legend) {
   std::vector<DrawMesh> cloth;
-  for (int mesh : scene.garment_mesh) cloth.push_back(scene.meshes[static_cast<std::size_t>(mesh)]);
+  for (int mesh : scene.garment_mesh)
+    cloth.push_back(scene.meshes[mesh]);
   return ply_bytes(cloth, legend);
 }
 
@@ -258,17 +272,20 @@ bool is_export(const std::string& path) {
 
 std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig,
                       const Print* print) {
-  if (!legend.steps.empty()) print = nullptr; // the map's colours are shown
+  if (!legend.steps.empty())
+    print = nullptr; // the map's colours are shown
   GlbBuffer buffer;
   io::Json document = {
       {"asset", {{"version", "2.0"}, {"generator", generator_stamp("render-png")}}}, {"scene", 0}};
   io::Json nodes = io::Json::array(), drawn = io::Json::array(), roots = io::Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    if (meshes[m].triangles.empty()) continue;
+    if (meshes[m].triangles.empty())
+      continue;
     nodes.push_back({{"name", meshes[m].name}, {"mesh", drawn.size()}});
     roots.push_back(drawn.size());
     const Rig::Skin* skin = rig && !rig->skins[m].joint.empty() ? &rig->skins[m] : nullptr;
-    if (skin) nodes.back()["skin"] = 0;
+    if (skin)
+      nodes.back()["skin"] = 0;
     drawn.push_back(add_mesh(buffer, meshes[m], legend, skin, print ? print->size : 0));
   }
   if (rig) {

@@ -57,7 +57,8 @@ std::vector<double> strain_values(const Garment& g, Map map,
   for (std::size_t p = 0; p < g.panels.panels.size(); ++p) {
     const pattern::PanelInfo& panel = g.panels.panels[p];
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
-      if (!(strains[f].area > 0)) continue;
+      if (!(strains[f].area > 0))
+        continue;
       const double value = 100 * strain_value(g, static_cast<int>(p), strains[f], map);
       mean.add(g.panels.triangles[f], value, strains[f].area);
       by_area.push_back({value, strains[f].area});
@@ -74,7 +75,8 @@ std::vector<double> gaps(const Garment& g, const collision::BodyCollider& body) 
     by_particle[i] = d.triangle < 0 ? FAR : d.distance;
   }
   std::vector<double> by_vertex;
-  for (int p : g.particle_of) by_vertex.push_back(by_particle[p]);
+  for (int p : g.particle_of)
+    by_vertex.push_back(by_particle[p]);
   return by_vertex;
 }
 
@@ -83,7 +85,8 @@ std::vector<double> spread_values(const Garment& g) {
     throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", "--map spread",
                 "needs a garment that was draped repeatedly", "write it with drape --redrapes");
   std::vector<double> by_vertex;
-  for (int p : g.particle_of) by_vertex.push_back(1000 * g.redrapes.spread_m[p]);
+  for (int p : g.particle_of)
+    by_vertex.push_back(1000 * g.redrapes.spread_m[p]);
   return by_vertex;
 }
 
@@ -93,7 +96,8 @@ std::vector<double> pressure_values(const Garment& g, const collision::BodyColli
   const std::vector<double> pressures = garment::contact_pressures(g, strains, body);
   VertexMean mean(g.panels.pattern.size());
   for (std::size_t f = 0; f < strains.size(); ++f) {
-    if (!(strains[f].area > 0)) continue;
+    if (!(strains[f].area > 0))
+      continue;
     mean.add(g.panels.triangles[f], pressures[f], strains[f].area);
     by_area.push_back({pressures[f], strains[f].area});
   }
@@ -108,7 +112,8 @@ std::vector<char> on_sleeves(const Garment& g) {
   for (int particle : g.particle_of) {
     double arm = 0;
     for (const garment::BindWeight& w : g.bind.particles[particle])
-      if (g.bind.frames[w.frame].find("arm") != std::string::npos) arm += w.weight;
+      if (g.bind.frames[w.frame].find("arm") != std::string::npos)
+        arm += w.weight;
     sleeve.push_back(arm > 0.5);
   }
   for (const pattern::PanelInfo& panel : g.panels.panels) {
@@ -116,7 +121,8 @@ std::vector<char> on_sleeves(const Garment& g) {
     const double share = panel.n_vertices > 0
                              ? static_cast<double>(std::count(first, last, 1)) / panel.n_vertices
                              : 0;
-    if (share < NEARLY_NONE || share > 1 - NEARLY_NONE) std::fill(first, last, share > 0.5);
+    if (share < NEARLY_NONE || share > 1 - NEARLY_NONE)
+      std::fill(first, last, share > 0.5);
   }
   return sleeve;
 }
@@ -130,7 +136,8 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body,
   std::map<double, double> ease; // by height
   for (const garment::FitRow& row :
        garment::fit_garment(g, body, skin, garment::standard_fit_policy()).rows)
-    if (row.kind == "level") ease[row.height_m] = 100 * row.ease_m;
+    if (row.kind == "level")
+      ease[row.height_m] = 100 * row.ease_m;
   if (ease.empty())
     throw Error(ErrorKind::USAGE, "render.no-trunk-level"_id, "", "--map ease",
                 "no trunk level goes through this garment");
@@ -139,9 +146,12 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body,
   for (std::size_t v = 0; v < g.particle_of.size(); ++v) {
     const double y = g.position[g.particle_of[v]].y();
     const auto above = ease.lower_bound(y);
-    if (sleeve[v]) values.push_back(NO_VALUE);
-    else if (above == ease.end()) values.push_back(ease.rbegin()->second);
-    else if (above == ease.begin()) values.push_back(above->second);
+    if (sleeve[v])
+      values.push_back(NO_VALUE);
+    else if (above == ease.end())
+      values.push_back(ease.rbegin()->second);
+    else if (above == ease.begin())
+      values.push_back(above->second);
     else {
       const auto below = std::prev(above);
       values.push_back(below->second + (above->second - below->second) * (y - below->first) /
@@ -155,13 +165,15 @@ constexpr double ALMOST_ALL = 0.99, ALMOST_NONE = 0.01; // quantiles of the area
 
 /// The legend's quantiles, by area. @returns the size that 99 of 100 parts do not exceed
 double summarise(std::vector<garment::Weighted> all, Legend& legend) {
-  if (all.empty()) return 0;
+  if (all.empty())
+    return 0;
   legend.p50 = garment::area_quantile(all, 0.5);
   legend.p1 = garment::area_quantile(all, ALMOST_NONE);
   legend.p99 = garment::area_quantile(all, ALMOST_ALL);
   legend.least = all.front().value;
   legend.largest = all.back().value;
-  for (garment::Weighted& v : all) v.value = std::abs(v.value);
+  for (garment::Weighted& v : all)
+    v.value = std::abs(v.value);
   return garment::area_quantile(all, ALMOST_ALL);
 }
 
@@ -172,8 +184,10 @@ void count_outside(const std::vector<garment::Weighted>& values, Legend& legend)
   const double slack = 1e-9 * (legend.high - legend.low);
   for (const auto& [value, weight] : values) {
     all += weight;
-    if (value < legend.low - slack) below += weight;
-    if (value > legend.high + slack) beyond += weight;
+    if (value < legend.low - slack)
+      below += weight;
+    if (value > legend.high + slack)
+      beyond += weight;
   }
   if (all > 0) {
     legend.below = below / all;
@@ -208,9 +222,11 @@ constexpr double NO_VALUE_LIGHT = 0.24; // of cloth without a value, in linear l
 double choose_end(double most, const std::array<double, 10>& ends) {
   double last = 0;
   for (double end : ends) {
-    if (end == 0) break;
+    if (end == 0)
+      break;
     last = end;
-    if (most <= end) break;
+    if (most <= end)
+      break;
   }
   return last;
 }
@@ -219,9 +235,11 @@ double choose_end(double most, const std::array<double, 10>& ends) {
 void choose_scale(Map map, double most, Legend& legend) {
   const Scale* scale = &SCALES[std::size(SCALES) - 1]; // strain, of all directions
   for (const Scale& known : SCALES)
-    if (known.map == map) scale = &known;
+    if (known.map == map)
+      scale = &known;
   legend.title = scale->title;
-  if (scale->map != map) legend.title += ", " + map_names()[static_cast<int>(map)];
+  if (scale->map != map)
+    legend.title += ", " + map_names()[static_cast<int>(map)];
   legend.unit = scale->unit;
   legend.diverging = scale->diverging;
   legend.high = choose_end(map == Map::PENETRATION ? legend.largest : most, scale->ends);
@@ -281,11 +299,14 @@ Vec3 scale_color(double t, bool diverging) {
   return anchors[k] + (s - k) * (anchors[k + 1] - anchors[k]);
 }
 
-Vec3 no_value_color() { return Vec3::Constant(NO_VALUE_LIGHT); }
+Vec3 no_value_color() {
+  return Vec3::Constant(NO_VALUE_LIGHT);
+}
 
 Legend apply_map(Scene& scene, Map map, double limit) {
   Legend legend;
-  if (map == Map::NONE) return legend;
+  if (map == Map::NONE)
+    return legend;
   if (map == Map::PARTS) {
     color_parts(scene);
     return legend;
@@ -302,38 +323,48 @@ Legend apply_map(Scene& scene, Map map, double limit) {
                   "compares two garments, not " + std::to_string(scene.garments.size()),
                   "give two shirt.json of one pattern");
     values.push_back(drape_difference(scene.garments[0], scene.garments[1]));
-    for (double& v : values[0]) v = v == NO_VALUE ? v : 1000 * v;
+    for (double& v : values[0])
+      v = v == NO_VALUE ? v : 1000 * v;
     const int hidden = scene.garment_mesh[1];
     scene.meshes.erase(scene.meshes.begin() + hidden);
     scene.garments.pop_back();
     scene.garment_mesh.pop_back();
     for (int* mesh : {&scene.garment_mesh[0], &scene.body_mesh})
-      if (*mesh > hidden) --*mesh;
+      if (*mesh > hidden)
+        --*mesh;
   } else if (map == Map::SPREAD) {
-    for (const Garment& g : scene.garments) values.push_back(spread_values(g));
+    for (const Garment& g : scene.garments)
+      values.push_back(spread_values(g));
   } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS ||
              map == Map::LIMIT) {
-    for (const Garment& g : scene.garments) values.push_back(strain_values(g, map, by_area));
+    for (const Garment& g : scene.garments)
+      values.push_back(strain_values(g, map, by_area));
   } else {
     if (!scene.body)
       throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", option, "needs the body too",
                   "give body.json as a document");
     const collision::BodyCollider body(scene.body->skin);
     for (const Garment& g : scene.garments) {
-      if (map == Map::PRESSURE) values.push_back(pressure_values(g, body, by_area));
-      if (map == Map::EASE) values.push_back(ease_values(g, *scene.body, body));
-      if (map != Map::GAP && map != Map::PENETRATION) continue;
+      if (map == Map::PRESSURE)
+        values.push_back(pressure_values(g, body, by_area));
+      if (map == Map::EASE)
+        values.push_back(ease_values(g, *scene.body, body));
+      if (map != Map::GAP && map != Map::PENETRATION)
+        continue;
       values.push_back(gaps(g, body));
-      for (double& v : values.back()) v = 1000 * (map == Map::GAP ? v : std::max(0.0, -v));
+      for (double& v : values.back())
+        v = 1000 * (map == Map::GAP ? v : std::max(0.0, -v));
     }
   }
   if (by_area.empty())
     for (const auto& list : values)
       for (const double v : list)
-        if (v != NO_VALUE) by_area.push_back({v, 1});
+        if (v != NO_VALUE)
+          by_area.push_back({v, 1});
   const double most = summarise(by_area, legend);
   choose_scale(map, most, legend);
-  if (limit > 0) legend.high = limit;
+  if (limit > 0)
+    legend.high = limit;
   legend.low = legend.diverging ? -legend.high : 0;
   count_outside(by_area, legend);
   for (const auto& list : values)

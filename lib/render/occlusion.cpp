@@ -45,12 +45,15 @@ struct Occlusion::DepthMap {
 Occlusion::Occlusion(const std::vector<DrawMesh>& meshes) {
   Box3 box;
   for (const DrawMesh& mesh : meshes)
-    for (const Vec3& p : mesh.positions) box.add(p);
-  if (box.empty()) return;
+    for (const Vec3& p : mesh.positions)
+      box.add(p);
+  if (box.empty())
+    return;
   m_center = box.center();
   m_radius = std::max(1e-6, 0.5 * box.size().norm());
   const double cell = std::max(box.size().maxCoeff(), 1e-6) / CELLS;
-  for (const DrawMesh& mesh : meshes) add_thinned(mesh, box.low, cell);
+  for (const DrawMesh& mesh : meshes)
+    add_thinned(mesh, box.low, cell);
 }
 
 /// Points of one cell become one at their mean; each mesh apart, so that cloth stays off the skin.
@@ -76,13 +79,14 @@ void Occlusion::add_thinned(const DrawMesh& mesh, const Vec3& low, double cell) 
     sum[k] += mesh.positions[v];
     ++count[k];
   }
-  const int base = static_cast<int>(m_positions.size());
+  const int base = std::ssize(m_positions);
   for (std::size_t k = 0; k < sum.size(); ++k)
     m_positions.push_back((sum[k] / count[k] - m_center).cast<float>());
   for (const Triangle& t : mesh.triangles) {
     const int a = cluster[t[0]], b = cluster[t[1]], c = cluster[t[2]];
     const bool collapsed = a == b || b == c || c == a;
-    if (collapsed) continue;
+    if (collapsed)
+      continue;
     m_triangles.push_back({base + a, base + b, base + c});
     m_is_solid.push_back(!mesh.is_cloth);
   }
@@ -118,8 +122,10 @@ void Occlusion::DepthMap::raise_to(const std::array<Eigen::Vector3f, 3>& corner,
   const int y0 = std::max(0, static_cast<int>(std::min({a.y(), b.y(), c.y()})));
   const int y1 = std::min(MAP_SIZE - 1, static_cast<int>(std::max({a.y(), b.y(), c.y()})));
   const float area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
-  if (std::abs(area) < FLATTEST) return;
-  if (area < 0 && solid) return;
+  if (std::abs(area) < FLATTEST)
+    return;
+  if (area < 0 && solid)
+    return;
   const float inverse = 1 / area;
   // u, v: barycentric coordinates of b and c, and how they change from pixel to pixel
   const float ux = (c.y() - a.y()) * inverse, uy = (a.x() - c.x()) * inverse;
@@ -135,7 +141,8 @@ void Occlusion::DepthMap::raise_to(const std::array<Eigen::Vector3f, 3>& corner,
     float* row = height.data() + static_cast<std::size_t>(y) * MAP_SIZE;
     for (int x = x0; x <= x1; ++x) {
       const bool inside = u >= 0 && v >= 0 && u + v <= 1;
-      if (inside && z > row[x]) row[x] = z;
+      if (inside && z > row[x])
+        row[x] = z;
       u += ux;
       v += vx;
       z += slope_x;
@@ -148,7 +155,8 @@ void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points,
                         std::vector<float>& all, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const float facing = normals[i].cast<float>().dot(map.towards);
-    if (facing <= LEAST_FACING) continue;
+    if (facing <= LEAST_FACING)
+      continue;
     const Eigen::Vector3f p = points[i].cast<float>() - map.center;
     const float x = p.dot(map.right) * map.scale + 0.5f * MAP_SIZE - 0.5f,
                 y = p.dot(map.up) * map.scale + 0.5f * MAP_SIZE - 0.5f;
@@ -176,12 +184,15 @@ std::vector<float> Occlusion::gather(const std::vector<Vec3>& directions,
                                      const std::vector<Vec3>& normals, float unlit) const {
   std::vector<DepthMap> maps(directions.size());
   parallel_for(directions.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) maps[k] = depth_from(directions[k]);
+    for (std::size_t k = begin; k < end; ++k)
+      maps[k] = depth_from(directions[k]);
   });
   std::vector<float> lit(points.size(), 0.f), all(points.size(), 0.f);
   parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (const DepthMap& map : maps) receive(map, points, normals, lit, all, begin, end);
-    for (std::size_t i = begin; i < end; ++i) lit[i] = all[i] > 0 ? lit[i] / all[i] : unlit;
+    for (const DepthMap& map : maps)
+      receive(map, points, normals, lit, all, begin, end);
+    for (std::size_t i = begin; i < end; ++i)
+      lit[i] = all[i] > 0 ? lit[i] / all[i] : unlit;
   });
   return lit;
 }
@@ -197,7 +208,8 @@ std::vector<float> Occlusion::sky(const std::vector<Vec3>& points, const std::ve
     from.emplace_back(r * std::cos(around), y, r * std::sin(around));
   }
   std::vector<float> light = gather(from, points, normals, 0.5f);
-  for (float& l : light) l = NIGHT + DAY * l;
+  for (float& l : light)
+    l = NIGHT + DAY * l;
   return light;
 }
 

@@ -37,7 +37,8 @@ FT_Face face() {
 
 void blend(std::uint8_t* pixel, int color, double alpha) {
   const double under = pixel[3] / static_cast<double>(FULL) * (1 - alpha), all = alpha + under;
-  if (all <= 0) return;
+  if (all <= 0)
+    return;
   for (int k = 0; k < 3; ++k) {
     const int over = color >> BITS * (2 - k) & FULL;
     pixel[k] = static_cast<std::uint8_t>(std::lround((over * alpha + pixel[k] * under) / all));
@@ -53,9 +54,12 @@ constexpr unsigned long NO_CODE_POINT = 0xfffd; // U+FFFD, drawn in its place
 
 /// Bytes that follow the first byte `c` of a code point; -1 where none begins with it.
 int bytes_after(unsigned char c) {
-  if (c < CONTINUED) return 0;
-  if (c >= OF_FOUR) return 3;
-  if (c >= OF_THREE) return 2;
+  if (c < CONTINUED)
+    return 0;
+  if (c >= OF_FOUR)
+    return 3;
+  if (c >= OF_THREE)
+    return 2;
   return c >= OF_TWO ? 1 : -1;
 }
 
@@ -65,7 +69,8 @@ template<class F> void for_code_points(const std::string& text, F&& visit) {
     const auto c = static_cast<unsigned char>(text[i++]);
     unsigned long code = c;
     int more = bytes_after(c);
-    if (more > 0) code = c & (CODE_MASK >> more);
+    if (more > 0)
+      code = c & (CODE_MASK >> more);
     for (; more > 0 && i < text.size() && (text[i] & OF_TWO) == CONTINUED; --more)
       code = code << CODE_BITS | (text[i++] & CODE_MASK);
     visit(more == 0 ? code : NO_CODE_POINT);
@@ -75,18 +80,24 @@ template<class F> void for_code_points(const std::string& text, F&& visit) {
 /// Blends over all pixels of a box by coverage(x, y) of their middles.
 template<class F>
 void cover(io::Image& image, double x0, double y0, double x1, double y1, int color, F&& coverage) {
-  if (!(x1 >= 0 && y1 >= 0 && x0 <= image.width && y0 <= image.height)) return;
+  if (!(x1 >= 0 && y1 >= 0 && x0 <= image.width && y0 <= image.height))
+    return;
   for (int y = std::max(0, static_cast<int>(y0)); y <= std::min<double>(image.height - 1, y1); ++y)
     for (int x = std::max(0, static_cast<int>(x0)); x <= std::min<double>(image.width - 1, x1);
          ++x) {
       const double alpha = std::clamp(coverage(x + 0.5, y + 0.5), 0.0, 1.0);
-      if (alpha > 0) blend(image.at(x, y), color, alpha);
+      if (alpha > 0)
+        blend(image.at(x, y), color, alpha);
     }
 }
 
-std::string number(double x) { return decimals(x, std::abs(x) < 10 && x != std::floor(x) ? 1 : 0); }
+std::string number(double x) {
+  return decimals(x, std::abs(x) < 10 && x != std::floor(x) ? 1 : 0);
+}
 
-std::string share(double of_one) { return of_one < 0.001 ? "< 0.1 %" : percent(of_one); }
+std::string share(double of_one) {
+  return of_one < 0.001 ? "< 0.1 %" : percent(of_one);
+}
 
 void fill(io::Image& image, int x0, int y0, int x1, int y1, const Vec3& linear) {
   for (int y = std::max(y0, 0); y < std::min(y1, image.height); ++y)
@@ -103,7 +114,8 @@ void fill(io::Image& image, int x0, int y0, int x1, int y1, const Vec3& linear) 
 /// The end of a colour bar: pointed where values lie beyond it. @param direction -1 up, 1 down
 /// @param linear null: nothing does
 void draw_tip(io::Image& image, int left, int end, int width, int direction, const Vec3* linear) {
-  if (!linear) return;
+  if (!linear)
+    return;
   for (int k = 0; k < width / 2; ++k) {
     const int y = direction > 0 ? end + k : end - 1 - k;
     fill(image, left + k, y, left + width - k, y + 1, *linear);
@@ -124,16 +136,19 @@ int text_width(const std::string& text, int size) {
 
 void draw_text(io::Image& image, const std::string& text, int x, int y, int size, Align align,
                int color) {
-  if (align != Align::LEFT) x -= text_width(text, size) / (align == Align::CENTER ? 2 : 1);
+  if (align != Align::LEFT)
+    x -= text_width(text, size) / (align == Align::CENTER ? 2 : 1);
   FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(size));
   for_code_points(text, [&](unsigned long code) {
-    if (FT_Load_Char(face(), code, FT_LOAD_RENDER)) return;
+    if (FT_Load_Char(face(), code, FT_LOAD_RENDER))
+      return;
     const auto* const glyph = face()->glyph;
     for (unsigned r = 0; r < glyph->bitmap.rows; ++r)
       for (unsigned q = 0; q < glyph->bitmap.width; ++q) {
         const int px = x + glyph->bitmap_left + static_cast<int>(q),
                   py = y - glyph->bitmap_top + static_cast<int>(r);
-        if (px < 0 || py < 0 || px >= image.width || py >= image.height) continue;
+        if (px < 0 || py < 0 || px >= image.width || py >= image.height)
+          continue;
         const int at = static_cast<int>(r) * glyph->bitmap.pitch + static_cast<int>(q);
         blend(image.at(px, py), color, glyph->bitmap.buffer[at] / static_cast<double>(FULL));
       }
@@ -152,7 +167,8 @@ void draw_text_halo(io::Image& image, const std::string& text, int x, int y, int
 void draw_line(io::Image& image, double x0, double y0, double x1, double y1, double width,
                int color, double opacity) {
   const double dx = x1 - x0, dy = y1 - y0, length2 = dx * dx + dy * dy, r = 0.5 * width + 1;
-  if (!std::isfinite(length2) || length2 > 1e10) return;
+  if (!std::isfinite(length2) || length2 > 1e10)
+    return;
   cover(image, std::min(x0, x1) - r, std::min(y0, y1) - r, std::max(x0, x1) + r,
         std::max(y0, y1) + r, color, [&](double x, double y) {
           const double t =
@@ -191,14 +207,18 @@ static std::vector<std::string> legend_notes(const Legend& legend) {
   for (std::size_t k = legend.diverging ? 0 : 2; k < std::size(all);
        ++k) // what has no other side needs no lower end
     notes.push_back(all[k].first + number(all[k].second) + " " + legend.unit);
-  if (legend.beyond > 0) notes.push_back("above " + share(legend.beyond));
-  if (legend.below > 0) notes.push_back("below " + share(legend.below));
-  if (legend.has_gaps) notes.emplace_back("no value");
+  if (legend.beyond > 0)
+    notes.push_back("above " + share(legend.beyond));
+  if (legend.below > 0)
+    notes.push_back("below " + share(legend.below));
+  if (legend.has_gaps)
+    notes.emplace_back("no value");
   return notes;
 }
 
 void draw_legend(io::Image& image, const Legend& legend) {
-  if (legend.steps.empty()) return;
+  if (legend.steps.empty())
+    return;
   const std::vector<std::string> notes = legend_notes(legend);
   const int n = static_cast<int>(legend.steps.size()), lines = static_cast<int>(notes.size());
   const int font = legend_font(image.width, image.height), bar_width = 2 * font;
@@ -210,7 +230,7 @@ void draw_legend(io::Image& image, const Legend& legend) {
       2, std::min(image.height / 22, (image.height - font / 2 - below_bar(lines - 1) - top) / n));
   for (int k = 0; k < n; ++k)
     fill(image, left, top + k * step, left + bar_width, top + (k + 1) * step,
-         legend.steps[static_cast<std::size_t>(n - 1 - k)]);
+         legend.steps[n - 1 - k]);
   draw_tip(image, left, top, bar_width, -1, legend.beyond > 0 ? &legend.steps.back() : nullptr);
   draw_tip(image, left, top + n * step, bar_width, 1,
            legend.below > 0 ? &legend.steps.front() : nullptr);
@@ -221,7 +241,7 @@ void draw_legend(io::Image& image, const Legend& legend) {
   draw_text_halo(image, legend.title, right, top - font * 15 / 4, font, Align::RIGHT);
   draw_text_halo(image, legend.unit, right, top - font * 19 / 8, font, Align::RIGHT);
   for (int line = 0; line < lines; ++line) {
-    const std::string& text = notes[static_cast<std::size_t>(line)];
+    const std::string& text = notes[line];
     const int y = top + n * step + below_bar(line);
     draw_text_halo(image, text, right, y, font, Align::RIGHT);
     if (legend.has_gaps && line == lines - 1) {
@@ -245,8 +265,10 @@ io::Image contact_sheet(const std::vector<io::Image>& images,
                                      [](const std::string& c) { return !c.empty(); });
   const int font = std::max(10, *std::max_element(height.begin(), height.end()) / 40),
             strip = captioned ? 2 * font : 0;
-  for (std::size_t c = 0; c + 1 < left.size(); ++c) left[c + 1] = left[c] + width[c];
-  for (std::size_t r = 0; r < rows; ++r) top[r + 1] = top[r] + height[r] + strip;
+  for (std::size_t c = 0; c + 1 < left.size(); ++c)
+    left[c + 1] = left[c] + width[c];
+  for (std::size_t r = 0; r < rows; ++r)
+    top[r + 1] = top[r] + height[r] + strip;
   io::Image sheet;
   sheet.width = left.back();
   sheet.height = top.back();
@@ -310,8 +332,10 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
     for (int x = 0; x + BLOCK <= a.width; x += BLOCK) {
       double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
       bool whole = true;
-      for (int k = 0; k < PIXELS; ++k) whole &= counts(x + k % BLOCK, y + k / BLOCK);
-      if (!whole) continue;
+      for (int k = 0; k < PIXELS; ++k)
+        whole &= counts(x + k % BLOCK, y + k / BLOCK);
+      if (!whole)
+        continue;
       for (int k = 0; k < PIXELS; ++k) {
         const int px = x + k % BLOCK, py = y + k / BLOCK;
         const double la = luminance(a.at(px, py)), lb = luminance(b.at(px, py));
@@ -328,7 +352,8 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
       sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
       ++blocks;
     }
-  if (blocks) result.ssim = sum / static_cast<double>(blocks);
+  if (blocks)
+    result.ssim = sum / static_cast<double>(blocks);
   return result;
 }
 

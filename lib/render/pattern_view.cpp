@@ -33,7 +33,7 @@ Sheet lay_out(const Scene& scene, double width_over_height) {
   for (std::size_t g = 0; g < scene.garments.size(); ++g) {
     const garment::Garment& garment = scene.garments[g];
     const DrawMesh& cloth = scene.meshes[scene.garment_mesh[g]];
-    const int base = static_cast<int>(sheet.mesh.uv.size());
+    const int base = std::ssize(sheet.mesh.uv);
     for (std::size_t v = 0; v < cloth.uv.size(); ++v) {
       sheet.mesh.uv.push_back(cloth.uv[v]);
       const Vec3 c = panel_color(cloth.panel_of[v]);
@@ -43,9 +43,11 @@ Sheet lay_out(const Scene& scene, double width_over_height) {
     }
     for (const Triangle& t : cloth.triangles)
       sheet.mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-    for (const auto& [a, b] : cloth.lines) sheet.mesh.lines.push_back({base + a, base + b});
+    for (const auto& [a, b] : cloth.lines)
+      sheet.mesh.lines.push_back({base + a, base + b});
     for (const pattern::PanelInfo& info : garment.panels.panels) {
-      if (info.n_vertices == 0) continue;
+      if (info.n_vertices == 0)
+        continue;
       Sheet::Panel panel{&garment, &info, base + info.first_vertex, Vec2::Constant(1e9),
                          Vec2::Constant(-1e9)};
       for (int v = panel.first; v < panel.first + info.n_vertices; ++v) {
@@ -106,7 +108,8 @@ void for_each_seam_side(const Sheet& sheet, const Camera& camera, const io::Imag
                         const Visit& visit) {
   const garment::Garment* done = nullptr;
   for (const Sheet::Panel& panel : sheet.panels) {
-    if (panel.garment == done) continue;
+    if (panel.garment == done)
+      continue;
     done = panel.garment;
     const pattern::PanelMesh& panels = panel.garment->panels;
     SeamSide side{0, &panels, {}, {}};
@@ -124,7 +127,8 @@ void for_each_seam_side(const Sheet& sheet, const Camera& camera, const io::Imag
             ++end;
           side.run.assign(run->begin() + static_cast<long>(first),
                           run->begin() + static_cast<long>(end));
-          if (side.run.size() > 1) visit(side);
+          if (side.run.size() > 1)
+            visit(side);
         }
       }
       ++side.seam;
@@ -145,25 +149,28 @@ std::optional<Vec2> number_place(const SeamSide& side, int font) {
   const std::vector<int>& run = side.run;
   const std::vector<Vec2>& at = side.at;
   double length = 0;
-  for (std::size_t i = 0; i + 1 < run.size(); ++i) length += (at[run[i + 1]] - at[run[i]]).norm();
+  for (std::size_t i = 0; i + 1 < run.size(); ++i)
+    length += (at[run[i + 1]] - at[run[i]]).norm();
   const int first = run[(run.size() - 1) / 2], second = run[(run.size() - 1) / 2 + 1];
   const Vec2 &a = at[first], &b = at[second];
-  if (!((b - a).norm() > 0) || length < 2 * font) return {};
-  const pattern::PanelInfo& info =
-      side.panels->panels[static_cast<std::size_t>(panel_of(*side.panels, first))];
+  if (!((b - a).norm() > 0) || length < 2 * font)
+    return {};
+  const pattern::PanelInfo& info = side.panels->panels[panel_of(*side.panels, first)];
   double low = 1e9, high = -1e9;
   for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
     low = std::min(low, at[v].y());
     high = std::max(high, at[v].y());
   }
-  if (high - low < 1.2 * font) return {};
+  if (high - low < 1.2 * font)
+    return {};
   // the panel lies on the side of the triangle that the segment belongs to
   Vec2 aside = Vec2(a.y() - b.y(), b.x() - a.x()).normalized();
   for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f) {
     const Triangle& t = side.panels->triangles[f];
     if (std::count(t.begin(), t.end(), first) + std::count(t.begin(), t.end(), second) < 2)
       continue;
-    if (aside.dot((at[t[0]] + at[t[1]] + at[t[2]]) / 3 - a) < 0) aside = -aside;
+    if (aside.dot((at[t[0]] + at[t[1]] + at[t[2]]) / 3 - a) < 0)
+      aside = -aside;
     break;
   }
   return 0.5 * (a + b) + 0.75 * font * aside;
@@ -209,10 +216,12 @@ void draw_name(io::Image& image, const Sheet& sheet, const Sheet::Panel& panel,
     write(image, text, static_cast<int>(at.x()), static_cast<int>(at.y() + 1.3 * font), font - 2,
           Align::CENTER, color);
   }
-  if (narrow) return;
+  if (narrow)
+    return;
   const double base =
       outside ? at.y() + 0.5 * arrow : at.y() - 1.6 * font; // the grain: warp runs upwards
-  if (mapped) draw_line(image, at.x(), base, at.x(), base - arrow, 3 * unit, 0xffffff);
+  if (mapped)
+    draw_line(image, at.x(), base, at.x(), base - arrow, 3 * unit, 0xffffff);
   draw_line(image, at.x(), base, at.x(), base - arrow, 1.2 * unit, color);
   for (double side : {-1.0, 1.0})
     draw_line(image, at.x(), base - arrow, at.x() + side * 4 * unit, base - arrow + 7 * unit,

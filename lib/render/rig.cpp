@@ -18,10 +18,12 @@ constexpr float REACH = 0.04F, REACH_PER_GAP = 0.5F; // m, and of the gap
 void keep_four(const Eigen::VectorXd& share, std::array<int, 4>& joint,
                std::array<double, 4>& weight) {
   std::vector<int> order(static_cast<std::size_t>(share.size()));
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    order[k] = static_cast<int>(k);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return share[a] > share[b]; });
   double sum = 0;
-  for (std::size_t k = 0; k < 4 && k < order.size(); ++k) sum += share[order[k]];
+  for (std::size_t k = 0; k < 4 && k < order.size(); ++k)
+    sum += share[order[k]];
   for (std::size_t k = 0; k < 4; ++k) {
     weight[k] = k < order.size() ? share[order[k]] / sum : 0;
     joint[k] = weight[k] > 0 ? order[k] : 0;
@@ -38,7 +40,7 @@ Rig::Skin along_with(const std::vector<Vec3>& positions, const Samples& samples)
   const auto n = static_cast<Eigen::Index>(samples.at.size());
   Eigen::Array<float, Eigen::Dynamic, 3> at(n, 3);
   for (Eigen::Index s = 0; s < n; ++s)
-    at.row(s) = samples.at[static_cast<std::size_t>(s)].cast<float>().transpose();
+    at.row(s) = samples.at[s].cast<float>().transpose();
   Rig::Skin skin;
   skin.joint.resize(positions.size());
   skin.weight.resize(positions.size());
@@ -53,9 +55,10 @@ Rig::Skin along_with(const std::vector<Vec3>& positions, const Samples& samples)
                   most2 = (gap + reach) * (gap + reach);
       share.setZero();
       for (Eigen::Index s = 0; s < n; ++s) {
-        if (distance2[s] >= most2) continue;
+        if (distance2[s] >= most2)
+          continue;
         const double near = 1 - (std::sqrt(distance2[s]) - gap) / reach;
-        share += near * near * samples.share[static_cast<std::size_t>(s)];
+        share += near * near * samples.share[s];
       }
       keep_four(share, skin.joint[v], skin.weight[v]);
     }
@@ -66,7 +69,8 @@ Rig::Skin along_with(const std::vector<Vec3>& positions, const Samples& samples)
 } // namespace
 
 std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& meshes) {
-  if (!scene.body || scene.body_mesh < 0) return {};
+  if (!scene.body || scene.body_mesh < 0)
+    return {};
   const body::Body& body = *scene.body;
   body::SkinWeights weights;
   try {
@@ -76,7 +80,8 @@ std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& mes
   }
   const auto own_mesh = static_cast<std::size_t>(scene.body_mesh);
   const std::vector<Vec3>& skin = meshes[own_mesh].positions;
-  if (skin.size() != weights.joint.size()) return {};
+  if (skin.size() != weights.joint.size())
+    return {};
   Rig rig;
   rig.names = weights.joints;
   const auto bone = [&](const std::string& name) {
@@ -86,15 +91,18 @@ std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& mes
   for (const std::string& name : rig.names) {
     const bool root = rig.names.front() == name;
     const auto own = bone(root ? "spine" : name);
-    if (own == body.bones.end()) return {};
+    if (own == body.bones.end())
+      return {};
     rig.head.push_back(own->head);
     int parent = root ? -1 : 0;
     for (auto above = root ? body.bones.end() : bone(own->parent);
          above != body.bones.end() && parent == 0; above = bone(above->parent)) {
       const auto known = std::find(rig.names.begin(), rig.names.end(), above->name);
-      if (known != rig.names.end()) parent = static_cast<int>(known - rig.names.begin());
+      if (known != rig.names.end())
+        parent = static_cast<int>(known - rig.names.begin());
     }
-    if (parent >= static_cast<int>(rig.parent.size())) return {};
+    if (parent >= std::ssize(rig.parent))
+      return {};
     rig.parent.push_back(parent);
   }
 
@@ -116,10 +124,10 @@ std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& mes
     samples.at.push_back(skin[v]);
     samples.share.push_back(share);
   }
-  if (!scene.draped || samples.at.empty()) return rig;
+  if (!scene.draped || samples.at.empty())
+    return rig;
   for (const int mesh : scene.garment_mesh)
-    rig.skins[static_cast<std::size_t>(mesh)] =
-        along_with(meshes[static_cast<std::size_t>(mesh)].positions, samples);
+    rig.skins[mesh] = along_with(meshes[mesh].positions, samples);
   return rig;
 }
 

@@ -38,13 +38,15 @@ DrawMesh plain_mesh(const TriangleMesh& source, const Vec3& color) {
 DrawMesh obj_mesh(const io::ObjMesh& obj) {
   TriangleMesh plain{obj.positions, obj.triangles};
   DrawMesh mesh = plain_mesh(plain, linear_color(SKIN));
-  if (obj.texture_triangles.empty()) return mesh;
+  if (obj.texture_triangles.empty())
+    return mesh;
   mesh.is_cloth = true;
   for (std::size_t g = 0; g < obj.groups.size(); ++g) {
     const std::size_t end =
         g + 1 < obj.groups.size() ? obj.groups[g + 1].first_triangle : obj.triangles.size();
     for (std::size_t f = obj.groups[g].first_triangle; f < end; ++f)
-      for (int v : obj.triangles[f]) mesh.colors[v] = panel_color(static_cast<int>(g));
+      for (int v : obj.triangles[f])
+        mesh.colors[v] = panel_color(static_cast<int>(g));
   }
   return mesh;
 }
@@ -86,7 +88,8 @@ void read_one(Scene& scene, const std::string& path) {
     return;
   }
   const bool drawing = ending == ".dxf";
-  if (!drawing && path != "-") refuse_no_document(path);
+  if (!drawing && path != "-")
+    refuse_no_document(path);
   const io::Json document = drawing ? io::Json::object() : io::read_json(path);
   const std::string format = drawing ? "pattern" : format_of(document, path);
   if (format == "body") {
@@ -97,7 +100,7 @@ void read_one(Scene& scene, const std::string& path) {
   } else if (format == "garment") {
     scene.garments.push_back(garment::read_garment(path));
     const garment::Garment& g = scene.garments.back();
-    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.garment_mesh.push_back(std::ssize(scene.meshes));
     scene.meshes.push_back(cloth_mesh(g));
     scene.draped = true;
   } else if (format == "panels") {
@@ -106,7 +109,7 @@ void read_one(Scene& scene, const std::string& path) {
     g.position = g.panels.placed;
     for (std::size_t v = 0; v < g.position.size(); ++v)
       g.particle_of.push_back(static_cast<int>(v));
-    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.garment_mesh.push_back(std::ssize(scene.meshes));
     scene.meshes.push_back(cloth_mesh(g));
     scene.garments.push_back(std::move(g));
   } else if (format == "pattern") {
@@ -115,7 +118,7 @@ void read_one(Scene& scene, const std::string& path) {
     g.position = g.panels.placed;
     for (std::size_t v = 0; v < g.position.size(); ++v)
       g.particle_of.push_back(static_cast<int>(v));
-    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.garment_mesh.push_back(std::ssize(scene.meshes));
     scene.meshes.push_back(cloth_mesh(g));
     scene.garments.push_back(std::move(g));
   } else {
@@ -156,10 +159,12 @@ DrawMesh cloth_mesh(const garment::Garment& g) {
       ++welded_uses[sorted(g.particle_of[t[k]], g.particle_of[t[(k + 1) % 3]])];
     }
   for (const auto& [edge, count] : uses) {
-    if (count != 1) continue; // inside a panel
+    if (count != 1)
+      continue; // inside a panel
     const bool is_hem = welded_uses[sorted(g.particle_of[edge[0]], g.particle_of[edge[1]])] == 1;
     // the panels of a mesh without a pattern are cut where it unrolls, and nothing is sewn there
-    if (g.strain_unknown && !is_hem) continue;
+    if (g.strain_unknown && !is_hem)
+      continue;
     mesh.lines.push_back(edge);
     mesh.is_hem.push_back(is_hem);
   }
@@ -188,13 +193,15 @@ void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors) 
                                             {"canvas", 0x9c8c6a}};
   int k = 0;
   for (DrawMesh& mesh : scene.meshes) {
-    if (!mesh.is_cloth || mesh.panel_of.empty()) continue;
+    if (!mesh.is_cloth || mesh.panel_of.empty())
+      continue;
     int color = garment_palette[k % 4];
     const auto g =
         static_cast<std::size_t>(std::find(scene.garment_mesh.begin(), scene.garment_mesh.end(),
                                            &mesh - scene.meshes.data()) -
                                  scene.garment_mesh.begin());
-    if (k < static_cast<int>(colors.size())) color = colors[k];
+    if (k < std::ssize(colors))
+      color = colors[k];
     else if (g < scene.garments.size())
       if (const auto own = of_material.extract(garment::main_material(scene.garments[g])))
         color = own.mapped(); // one garment alone has it
@@ -223,9 +230,7 @@ bool is_closed(const TriangleMesh& mesh) {
           mixed((std::min(a, b) << 32 | std::max(a, b)) + 0x9e3779b97f4a7c15ULL);
       left += a < b ? h : std::uint64_t{0} - h;
     }
-    const Vec3 &a = mesh.positions[static_cast<std::size_t>(t[0])],
-               &b = mesh.positions[static_cast<std::size_t>(t[1])],
-               &c = mesh.positions[static_cast<std::size_t>(t[2])];
+    const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
     volume += a.dot(b.cross(c));
   }
   return left == 0 && volume > 0;
@@ -240,7 +245,8 @@ Scene read_scene(const std::vector<std::string>& paths) {
     const std::size_t before = scene.meshes.size(), garments = scene.garments.size();
     const int body_before = scene.body_mesh;
     read_one(scene, path);
-    if (scene.body_mesh != body_before) body = path;
+    if (scene.body_mesh != body_before)
+      body = path;
     if (scene.garments.size() > garments && !scene.garments.back().body_sha256.empty()) {
       draped.push_back(path);
       which.push_back(garments);
@@ -257,7 +263,8 @@ Scene read_scene(const std::vector<std::string>& paths) {
         scene.findings.push_back(finding);
   }
   std::size_t triangles = 0;
-  for (const DrawMesh& m : scene.meshes) triangles += m.triangles.size();
+  for (const DrawMesh& m : scene.meshes)
+    triangles += m.triangles.size();
   if (triangles == 0 && scene.body)
     throw input_error("body.no-skin"_id, paths.front(), "",
                       "the body was written without its skin, and there is nothing else to draw",

@@ -14,7 +14,9 @@ constexpr int LANDMARK = 0xc0392b, BONE = 0x1f6f8b, SLICE = 0xb4531a, INK = 0x30
 constexpr int AXES[] = {0xc0392b, 0x2e8b57, 0x2b5fa8};
 constexpr double SLACK_M = 0.012; // a mark may lie this far below the surface that it marks
 
-double fine_line(int height) { return std::max(1.0, height / 1000.0); } // pixels
+double fine_line(int height) {
+  return std::max(1.0, height / 1000.0);
+} // pixels
 int label_font(int height) {
   return std::max(9, static_cast<int>(std::lround(12.5 * fine_line(height))));
 }
@@ -35,7 +37,8 @@ public:
   }
   void disc(const Vec3& a, double radius, int color, bool filled) {
     const Vec3 p = at(a);
-    if (filled) draw_disc(m_image, p.x(), p.y(), (radius + 1.2) * unit, 0xffffff);
+    if (filled)
+      draw_disc(m_image, p.x(), p.y(), (radius + 1.2) * unit, 0xffffff);
     draw_disc(m_image, p.x(), p.y(), radius * unit, color, filled ? 0 : 1.2 * unit,
               filled ? 1 : 0.45);
   }
@@ -96,10 +99,12 @@ void draw_labels(Pen& pen, std::vector<Label> labels, int right_edge) {
   for (bool right : {false, true}) {
     std::vector<Label> column;
     for (const Label& l : labels)
-      if ((l.at.x() >= 0.5 * right_edge && !l.always_left) == right) column.push_back(l);
+      if ((l.at.x() >= 0.5 * right_edge && !l.always_left) == right)
+        column.push_back(l);
     std::vector<double> wanted;
     wanted.reserve(column.size());
-    for (const Label& l : column) wanted.push_back(l.at.y());
+    for (const Label& l : column)
+      wanted.push_back(l.at.y());
     const std::vector<double> y = move_apart(wanted, pitch, pitch, image.height - 0.4 * font);
     for (std::size_t k = 0; k < column.size(); ++k) {
       const int width = text_width(column[k].text, font), margin = font / 2;
@@ -132,9 +137,11 @@ void show_slices(Pen& pen, const body::Body& body, std::vector<Label>& labels) {
     for (const auto& [a, b] : cut) {
       pen.line(a, b, 1.8, SLICE, true);
       const Vec3 p = pen.at(a);
-      if (p.x() < outermost.x()) outermost = p;
+      if (p.x() < outermost.x())
+        outermost = p;
     }
-    if (!cut.empty()) labels.push_back({outermost, slice_label(name, level), SLICE, true});
+    if (!cut.empty())
+      labels.push_back({outermost, slice_label(name, level), SLICE, true});
   }
 }
 
@@ -164,7 +171,8 @@ void show_seams(Pen& pen, const Scene& scene) {
 void show_names(Pen& pen, const Scene& scene, std::vector<Label>& labels) {
   for (const garment::Garment& g : scene.garments)
     for (const pattern::PanelInfo& panel : g.panels.panels) {
-      if (panel.n_vertices == 0) continue;
+      if (panel.n_vertices == 0)
+        continue;
       Vec3 middle = Vec3::Zero();
       for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v)
         middle += g.position[g.particle_of[v]] / panel.n_vertices;
@@ -177,7 +185,8 @@ void show_names(Pen& pen, const Scene& scene, std::vector<Label>& labels) {
           at = p;
         }
       }
-      if (nearest > 1e8) continue;
+      if (nearest > 1e8)
+        continue;
       pen.disc(at, 2.5, INK, true);
       labels.push_back({pen.at(at), panel.name, INK});
     }
@@ -195,7 +204,8 @@ Show parse_show(const std::string& list) {
                                     [&](const auto& w) { return word == w.first; });
     if (found == std::end(words)) {
       std::vector<std::string> names;
-      for (const auto& w : words) names.emplace_back(w.first);
+      for (const auto& w : words)
+        names.emplace_back(w.first);
       throw unknown_word(
           "--show", word, names,
           "known are landmarks, bones, frames, slices, seams and names, joined by commas");
@@ -215,7 +225,8 @@ std::vector<std::array<Vec3, 2>> cut_level(const TriangleMesh& mesh, double heig
                                            const std::vector<char>& takes_part) {
   std::vector<std::array<Vec3, 2>> cut;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (!takes_part.empty() && !takes_part[f]) continue;
+    if (!takes_part.empty() && !takes_part[f])
+      continue;
     std::array<Vec3, 3> hit;
     int n = 0;
     for (int k = 0; k < 3; ++k) {
@@ -224,7 +235,8 @@ std::vector<std::array<Vec3, 2>> cut_level(const TriangleMesh& mesh, double heig
       if ((a.y() < height) != (b.y() < height))
         hit[n++] = a + (height - a.y()) / (b.y() - a.y()) * (b - a);
     }
-    if (n == 2) cut.push_back({hit[0], hit[1]});
+    if (n == 2)
+      cut.push_back({hit[0], hit[1]});
   }
   return cut;
 }
@@ -237,15 +249,19 @@ double label_share(const Scene& scene, const Show& show, int width, int height) 
   };
   if (scene.body) {
     if (show.landmarks)
-      for (const auto& [name, landmark] : scene.body->landmarks) holds(name);
+      for (const auto& [name, landmark] : scene.body->landmarks)
+        holds(name);
     if (show.slices)
-      for (const auto& [name, level] : scene.body->levels) holds(slice_label(name, level));
+      for (const auto& [name, level] : scene.body->levels)
+        holds(slice_label(name, level));
     if (show.frames)
-      for (const auto& [name, frame] : scene.body->frames) holds(name);
+      for (const auto& [name, frame] : scene.body->frames)
+        holds(name);
   }
   if (show.names)
     for (const garment::Garment& g : scene.garments)
-      for (const pattern::PanelInfo& panel : g.panels.panels) holds(panel.name);
+      for (const pattern::PanelInfo& panel : g.panels.panels)
+        holds(panel.name);
   return widest == 0 ? 0 : std::min(0.2, (widest + 1.5 * font) / width);
 }
 
@@ -259,13 +275,17 @@ void draw_show(io::Image& image, const Scene& scene, const Camera& camera, const
                                                     {show.frames, "frames"},
                                                     {show.slices, "slices"}};
     for (const auto& [shown, name] : of_body)
-      if (shown) lacks(name, "a body.json");
+      if (shown)
+        lacks(name, "a body.json");
   }
   if (scene.garments.empty() && (show.seams || show.names))
     lacks(show.seams ? "seams" : "names", "a shirt.json or panels.json");
-  if (show.seams) show_seams(pen, scene);
-  if (show.slices) show_slices(pen, *scene.body, labels);
-  if (show.frames) show_frames(pen, *scene.body, labels);
+  if (show.seams)
+    show_seams(pen, scene);
+  if (show.slices)
+    show_slices(pen, *scene.body, labels);
+  if (show.frames)
+    show_frames(pen, *scene.body, labels);
   if (show.bones)
     for (const body::Bone& bone : scene.body->bones) {
       pen.line(bone.head, bone.tail, 5, 0xffffff, false);
@@ -277,9 +297,11 @@ void draw_show(io::Image& image, const Scene& scene, const Camera& camera, const
     for (const auto& [name, landmark] : scene.body->landmarks) {
       const bool seen = pen.sees(landmark.p);
       pen.disc(landmark.p, seen ? 3.2 : 3, LANDMARK, seen);
-      if (seen) labels.push_back({pen.at(landmark.p), name, LANDMARK});
+      if (seen)
+        labels.push_back({pen.at(landmark.p), name, LANDMARK});
     }
-  if (show.names) show_names(pen, scene, labels);
+  if (show.names)
+    show_names(pen, scene, labels);
   draw_labels(pen, labels, image.width - legend_width);
 }
 

@@ -10,12 +10,14 @@ inline constexpr double SRGB_LINEAR_TO = 0.0031308, SRGB_LINEAR_TO_NUMBER = 0.04
 
 /// The number in a picture, 0..1, of light, 0..1.
 inline double to_srgb(double linear) {
-  if (linear <= SRGB_LINEAR_TO) return SRGB_SLOPE * linear;
+  if (linear <= SRGB_LINEAR_TO)
+    return SRGB_SLOPE * linear;
   return SRGB_SCALE * std::pow(linear, 1 / SRGB_POWER) - SRGB_OFFSET;
 }
 /// The light, 0..1, of a number in a picture, 0..1.
 inline double from_srgb(double number) {
-  if (number <= SRGB_LINEAR_TO_NUMBER) return number / SRGB_SLOPE;
+  if (number <= SRGB_LINEAR_TO_NUMBER)
+    return number / SRGB_SLOPE;
   return std::pow((number + SRGB_OFFSET) / SRGB_SCALE, SRGB_POWER);
 }
 

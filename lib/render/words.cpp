@@ -22,11 +22,13 @@ std::array<int, 2> parse_size(const std::string& text) {
 }
 
 int samples_for(const std::array<int, 2>& size) {
-  if (std::max(size[0], size[1]) > 4096) return 1; // four samples a pixel would need gigabytes
+  if (std::max(size[0], size[1]) > 4096)
+    return 1; // four samples a pixel would need gigabytes
   constexpr double MOST = 4.3e6;
   const double pixels = static_cast<double>(size[0]) * size[1];
   int samples = 4;
-  while (samples > 2 && pixels * samples * samples > MOST) --samples;
+  while (samples > 2 && pixels * samples * samples > MOST)
+    --samples;
   return samples;
 }
 
@@ -41,15 +43,19 @@ static int parse_color(const std::string& option, const std::string& word,
 
 std::vector<int> parse_colors(const std::string& text) {
   std::vector<int> colors;
-  for (const std::string& word : split(text)) colors.push_back(parse_color("--color", word));
+  for (const std::string& word : split(text))
+    colors.push_back(parse_color("--color", word));
   return colors;
 }
 
 std::optional<int> parse_background(const std::string& text) {
-  if (text == "transparent") return std::nullopt;
+  if (text == "transparent")
+    return std::nullopt;
   constexpr int WHITE = 0xffffff, GREY = 0xdbdbdb;
-  if (text == "white") return WHITE;
-  if (text == "grey") return GREY;
+  if (text == "white")
+    return WHITE;
+  if (text == "grey")
+    return GREY;
   return parse_color("--background", text, "white, grey, transparent or ");
 }
 
@@ -62,9 +68,11 @@ ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Sc
                                                   {"checks", Fabric::CHECKS}};
   const bool panels = fabric == "panels" || (fabric == "auto" && !scene.draped && !colors_given);
   options.fabric = panels ? Fabric::PLAIN : Fabric::WOVEN;
-  if (panels) return ClothColors::PANELS;
+  if (panels)
+    return ClothColors::PANELS;
   for (const auto& [name, kind] : known)
-    if (fabric == name) return options.fabric = kind, ClothColors::GARMENTS;
+    if (fabric == name)
+      return options.fabric = kind, ClothColors::GARMENTS;
   const auto is_denim = [](const garment::Garment& g) {
     return garment::main_material(g) == "denim";
   };
@@ -76,7 +84,8 @@ ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Sc
   }
   if (io::ending_of(fabric) != ".png") {
     std::vector<std::string> names{"auto", "panels"};
-    for (const auto& [name, kind] : known) names.emplace_back(name);
+    for (const auto& [name, kind] : known)
+      names.emplace_back(name);
     throw unknown_word(
         "--fabric", fabric, names,
         "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
@@ -89,7 +98,8 @@ ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Sc
 void check_pixels(const std::array<int, 2>& size, std::size_t views) {
   constexpr double MOST = 268e6; // of one picture: 16384 x 16384, a gigabyte
   const double pixels = static_cast<double>(size[0]) * size[1] * static_cast<double>(views);
-  if (pixels <= MOST) return;
+  if (pixels <= MOST)
+    return;
   throw Error(ErrorKind::USAGE, "render.too-large"_id, "",
               "--size " + std::to_string(size[0]) + "x" + std::to_string(size[1]),
               std::to_string(views) + " views of that size are " +

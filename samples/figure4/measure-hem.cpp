@@ -108,7 +108,8 @@ void measure(const std::string& path) {
     const Vec3 p = (1 - t) * g.position[hem[i]] + t * g.position[hem[(i + 1) % hem.size()]];
     z.emplace_back(p.z(), p.x());
   }
-  if (shadow < 0) std::reverse(z.begin(), z.end());
+  if (shadow < 0)
+    std::reverse(z.begin(), z.end());
   int folds = 0;
   const double wave = waviness(z, folds);
   std::vector<double> strain;
@@ -133,7 +134,8 @@ int main(int argc, char** argv) {
       throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "no garment is given",
                   "measure-hem shirt.json...");
     std::printf("garment\tgirth_cm\tshadow_cm2\tturning\twaviness_mm\tfolds\tstrain_p99\tstate\n");
-    for (int i = 1; i < argc; ++i) measure(argv[i]);
+    for (int i = 1; i < argc; ++i)
+      measure(argv[i]);
     return 0;
   } catch (const Error& e) {
     std::fprintf(stderr, "measure-hem: %s\n", e.what());

@@ -158,14 +158,19 @@ void BodyField::build_arm(const GirthFactors& g) {
                                  {0.20, 0.00, 0.0305, 0.0290, 0.0320, 0.0310, 0.8, 2},
                                  {-0.06, 0.00, 0.0330, 0.0300, 0.0340, 0.0330, 0.6, 2}};
   const auto height_at = [&](double t) {
-    if (t < 1) return t * le;
-    if (t < 2) return le - (t - 1) * forearm_length;
+    if (t < 1)
+      return t * le;
+    if (t < 2)
+      return le - (t - 1) * forearm_length;
     return lw - (t - 2) * hand_length;
   };
   const auto growth_at = [&](double factor) {
-    if (factor == 0) return std::sqrt(std::sqrt(g.wrist)); // hands hardly grow
-    if (factor <= 1) return 1 + (g.upper_arm - 1) * factor;
-    if (factor <= 2) return g.upper_arm + (g.forearm - g.upper_arm) * (factor - 1);
+    if (factor == 0)
+      return std::sqrt(std::sqrt(g.wrist)); // hands hardly grow
+    if (factor <= 1)
+      return 1 + (g.upper_arm - 1) * factor;
+    if (factor <= 2)
+      return g.upper_arm + (g.forearm - g.upper_arm) * (factor - 1);
     return g.forearm + (g.wrist - g.forearm) * (factor - 2);
   };
   std::vector<TubeKnot> knots;
@@ -234,8 +239,10 @@ void BodyField::build_leg(const GirthFactors& g) {
 
 double BodyField::leg(const Vec3& p) const {
   const double h = stature;
-  if (p.y() > 0.66 * h) return p.y() - 0.53 * h; // far off: only the size matters
-  if (p.y() > 0.16 * h) return m_leg.distance(p);
+  if (p.y() > 0.66 * h)
+    return p.y() - 0.53 * h; // far off: only the size matters
+  if (p.y() > 0.16 * h)
+    return m_leg.distance(p);
   const Vec3 q = p - Vec3(ankle.x(), 0, ankle.z());
   const double c = std::cos(m_foot_turn), s = std::sin(m_foot_turn);
   // Foot frame: its y is forward along the foot, its z is up.
@@ -245,7 +252,8 @@ double BodyField::leg(const Vec3& p) const {
 
 double BodyField::head(const Vec3& p) const {
   const double h = stature;
-  if (p.y() < 0.70 * h) return 0.80 * h - p.y(); // far off: only the size matters
+  if (p.y() < 0.70 * h)
+    return 0.80 * h - p.y(); // far off: only the size matters
   const Vec3 q(std::abs(p.x()), p.y(), p.z() - 0.010 * h);
   double d = ellipsoid_distance(q, Vec3(0, 0.9405, 0.001) * h,
                                 Vec3(m_female ? 0.0455 : 0.0465, 0.0595, 0.0570) * h);
@@ -269,7 +277,8 @@ double BodyField::head(const Vec3& p) const {
 
 double BodyField::trunk(const Vec3& p) const {
   const double h = stature;
-  if (p.y() < 0.30 * h) return 0.44 * h - p.y(); // far off: only the size matters
+  if (p.y() < 0.30 * h)
+    return 0.44 * h - p.y(); // far off: only the size matters
   const Vec3 q(std::abs(p.x()), p.y(), p.z());
   double d = m_trunk.distance(q);
   // The shoulder girdle, from the root of the neck to the shoulder.

@@ -8,17 +8,21 @@ namespace {
 
 Vec2 at(const Vec2& a, const std::vector<Vec2>& control, const Vec2& b, double t) {
   const double s = 1 - t;
-  if (control.empty()) return s * a + t * b;
+  if (control.empty())
+    return s * a + t * b;
   return s * s * s * a + 3 * s * s * t * control[0] + 3 * s * t * t * control[1] + t * t * t * b;
 }
 
 double length_of(const std::vector<Vec2>& points) {
   double sum = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
+  for (std::size_t i = 1; i < points.size(); ++i)
+    sum += (points[i] - points[i - 1]).norm();
   return sum;
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const double s = cross(b - a, c - a), t = cross(b - a, d - a), u = cross(d - c, a - c),
@@ -55,13 +59,15 @@ void Draft::remove(const std::string& panel) {
 
 const DraftPanel& Draft::panel(const std::string& wanted) const {
   for (const DraftPanel& p : panels)
-    if (p.name == wanted) return p;
+    if (p.name == wanted)
+      return p;
   throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", name, "no panel \"" + wanted + "\"");
 }
 
 int edge_index(const DraftPanel& panel, const std::string& edge) {
   for (std::size_t i = 0; i < panel.edges.size(); ++i)
-    if (panel.edges[i].name == edge) return static_cast<int>(i);
+    if (panel.edges[i].name == edge)
+      return static_cast<int>(i);
   throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", panel.name,
               "no edge \"" + edge + "\"");
 }
@@ -105,7 +111,8 @@ DraftPanel mirrored(const DraftPanel& panel, const std::string& name, const std:
   m.placement.part = part;
   m.placement.anchor = flip(panel.placement.anchor);
   // Arms and legs have mirrored frames of their own; around the trunk the angle itself turns.
-  if (part == panel.placement.part) m.placement.theta_deg = -panel.placement.theta_deg;
+  if (part == panel.placement.part)
+    m.placement.theta_deg = -panel.placement.theta_deg;
   return m;
 }
 
@@ -149,8 +156,10 @@ std::vector<std::string> draft_faults(const Draft& draft) {
     double area = 0;
     for (std::size_t i = 0; i < loop.size(); ++i)
       area += 0.5 * cross(loop[i], loop[(i + 1) % loop.size()]);
-    if (area <= 0) faults.push_back(p.name + ": outline runs clockwise");
-    if (!is_simple(loop)) faults.push_back(p.name + ": outline crosses itself");
+    if (area <= 0)
+      faults.push_back(p.name + ": outline runs clockwise");
+    if (!is_simple(loop))
+      faults.push_back(p.name + ": outline crosses itself");
   }
   for (const DraftSeam& s : draft.seams) {
     const double a = edge_length(draft.panel(s.panel_a), s.edge_a),
@@ -167,7 +176,8 @@ std::vector<std::string> draft_faults(const Draft& draft) {
 
 double solve(double low, double high, const std::function<double(double)>& f) {
   const double f_low = f(low), f_high = f(high);
-  if (f_low * f_high > 0) return std::abs(f_low) < std::abs(f_high) ? low : high;
+  if (f_low * f_high > 0)
+    return std::abs(f_low) < std::abs(f_high) ? low : high;
   for (int k = 0; k < 60; ++k) {
     const double mid = 0.5 * (low + high);
     (f(mid) * f_low > 0 ? low : high) = mid;

@@ -58,7 +58,9 @@ void add_quarters(Draft& d, const DraftPanel& front, const DraftPanel& back) {
 
 } // namespace
 
-Draft draft_skirt(const Measures& m) { return draft_flared_skirt(m, 0); }
+Draft draft_skirt(const Measures& m) {
+  return draft_flared_skirt(m, 0);
+}
 
 Draft draft_flared_skirt(const Measures& m, double more_flare) {
   Draft d{"skirt", {}, {}};

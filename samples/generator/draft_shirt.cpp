@@ -117,8 +117,12 @@ std::vector<Vec2> back_neck_control(const Block& b) {
   return {Vec2(0.55 * b.neck_half, -b.neck_rise / 3), Vec2(-0.55 * b.neck_half, -b.neck_rise / 3)};
 }
 
-Vec2 flip(const Vec2& p) { return {-p.x(), p.y()}; }
-std::vector<Vec2> flip_run(const std::vector<Vec2>& c) { return {flip(c[1]), flip(c[0])}; }
+Vec2 flip(const Vec2& p) {
+  return {-p.x(), p.y()};
+}
+std::vector<Vec2> flip_run(const std::vector<Vec2>& c) {
+  return {flip(c[1]), flip(c[0])};
+}
 
 /// Half width of a sleeve cap of height `cap` whose curve has the wanted length.
 std::vector<Vec2> cap_control(double half, double base, double cap) {
@@ -186,7 +190,8 @@ Draft draft_shirt(const Measures& m) {
   for (std::size_t i = 1; i < curve.size(); ++i) {
     const double step = (curve[i] - curve[i - 1]).norm();
     all += step;
-    if (curve[i].y() < yoke_y) below += step;
+    if (curve[i].y() < yoke_y)
+      below += step;
   }
   split_edge(half, "armhole", below / all, "armhole", "armhole_yoke");
   const int low = edge_index(half, "armhole"), high = edge_index(half, "armhole_yoke");

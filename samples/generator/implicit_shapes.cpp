@@ -7,11 +7,13 @@ MonotoneCurve::MonotoneCurve(std::vector<double> x, std::vector<double> y)
     : m_x(std::move(x)), m_y(std::move(y)), m_slope(m_x.size(), 0.0) {
   const std::size_t n = m_x.size();
   std::vector<double> d(n - 1);
-  for (std::size_t i = 0; i + 1 < n; ++i) d[i] = (m_y[i + 1] - m_y[i]) / (m_x[i + 1] - m_x[i]);
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    d[i] = (m_y[i + 1] - m_y[i]) / (m_x[i + 1] - m_x[i]);
   m_slope[0] = d[0];
   m_slope[n - 1] = d[n - 2];
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    if (d[i - 1] * d[i] <= 0) continue;
+    if (d[i - 1] * d[i] <= 0)
+      continue;
     // The weighted harmonic mean keeps the curve monotone between knots.
     const double h0 = m_x[i] - m_x[i - 1], h1 = m_x[i + 1] - m_x[i];
     const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
@@ -20,8 +22,10 @@ MonotoneCurve::MonotoneCurve(std::vector<double> x, std::vector<double> y)
 }
 
 double MonotoneCurve::at(double x) const {
-  if (x <= m_x.front()) return m_y.front();
-  if (x >= m_x.back()) return m_y.back();
+  if (x <= m_x.front())
+    return m_y.front();
+  if (x >= m_x.back())
+    return m_y.back();
   const std::size_t i =
       static_cast<std::size_t>(std::upper_bound(m_x.begin(), m_x.end(), x) - m_x.begin()) - 1;
   const double h = m_x[i + 1] - m_x[i], t = (x - m_x[i]) / h, s = 1 - t;
@@ -40,10 +44,12 @@ Tube::Tube(const std::vector<TubeKnot>& knots, double round_low, double round_hi
   m_step = (m_high - m_low) / N;
   m_table.resize(N + 1);
   std::vector<double> x, y;
-  for (const TubeKnot& k : knots) x.push_back(k.y);
+  for (const TubeKnot& k : knots)
+    x.push_back(k.y);
   for (auto channel : CHANNELS) {
     y.clear();
-    for (const TubeKnot& k : knots) y.push_back(k.*channel);
+    for (const TubeKnot& k : knots)
+      y.push_back(k.*channel);
     const MonotoneCurve curve(x, y);
     for (int i = 0; i <= N; ++i) {
       m_table[i].y = m_low + m_step * i;
@@ -91,13 +97,15 @@ double round_cone_distance(const Vec3& p, const Vec3& a, const Vec3& b, double r
 }
 
 double smooth_union(double a, double b, double k) {
-  if (k <= 0) return std::min(a, b);
+  if (k <= 0)
+    return std::min(a, b);
   const double h = std::max(k - std::abs(a - b), 0.0) / k;
   return std::min(a, b) - h * h * k / 4;
 }
 
 double round_intersection(double a, double b, double r) {
-  if (r <= 0) return std::max(a, b);
+  if (r <= 0)
+    return std::max(a, b);
   const double u = std::max(a + r, 0.0), v = std::max(b + r, 0.0);
   return std::min(-r, std::max(a, b)) + std::sqrt(u * u + v * v);
 }

@@ -32,7 +32,8 @@ void write(const Options& o, const samples::Mannequin& shape) {
   obj.positions = made.mesh.positions;
   obj.triangles = made.mesh.triangles;
   io::write_obj(o.output, obj, "mannequin, m, y up, faces +z");
-  if (!o.parts.empty()) io::write_file(o.parts, std::string(made.parts.begin(), made.parts.end()));
+  if (!o.parts.empty())
+    io::write_file(o.parts, std::string(made.parts.begin(), made.parts.end()));
   if (!o.truth.empty()) {
     io::Json document = made.truth;
     document["mesh"]["file"] = io::file_name(o.output);
@@ -81,19 +82,26 @@ int main(int argc, char** argv) {
   tool.formats("", "OBJ, truth documents (JSON)");
   return tool.run(argc, argv, [&] {
     if (o.list) {
-      for (const std::string& name : samples::preset_names()) std::printf("%s\n", name.c_str());
+      for (const std::string& name : samples::preset_names())
+        std::printf("%s\n", name.c_str());
       return 0;
     }
     if (o.output.empty())
       throw Error(ErrorKind::USAGE, "option.missing"_id, "", "-o", "no output file is given",
                   "for example -o body.obj");
     samples::Mannequin shape = o.preset.empty() ? samples::Mannequin{} : samples::preset(o.preset);
-    if (sex.given()) shape.sex = given.sex;
-    if (stature.given()) shape.stature_m = given.stature_m;
-    if (bmi.given()) shape.bmi = given.bmi;
-    if (arm.given()) shape.arm_deg = given.arm_deg;
-    if (leg.given()) shape.leg_deg = given.leg_deg;
-    if (cell.given()) shape.cell_m = given.cell_m;
+    if (sex.given())
+      shape.sex = given.sex;
+    if (stature.given())
+      shape.stature_m = given.stature_m;
+    if (bmi.given())
+      shape.bmi = given.bmi;
+    if (arm.given())
+      shape.arm_deg = given.arm_deg;
+    if (leg.given())
+      shape.leg_deg = given.leg_deg;
+    if (cell.given())
+      shape.cell_m = given.cell_m;
     read_girths(o.girths, shape);
     write(o, shape);
     return 0;

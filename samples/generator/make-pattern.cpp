@@ -22,7 +22,8 @@ samples::Draft draft(const std::string& garment, const samples::Measures& measur
   std::vector<std::string> names;
   for (const auto& [name, drafter] : GARMENTS) {
     names.push_back(name);
-    if (name == garment) return drafter(measures);
+    if (name == garment)
+      return drafter(measures);
   }
   throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "GARMENT",
               "there is no garment \"" + garment + "\"" + did_you_mean(garment, names, "\""),
@@ -46,7 +47,8 @@ std::string standard_measures(const std::vector<std::string>& given) {
     });
     char value[32];
     std::snprintf(value, sizeof value, " %.1f", 100 * standard.*member);
-    if (!own && standard.*member > 0) list += (list.empty() ? "" : ", ") + name + value;
+    if (!own && standard.*member > 0)
+      list += (list.empty() ? "" : ", ") + name + value;
   }
   return list.empty() ? "all measures are those of --measure"
                       : "what --measure does not say is of a standard figure, in cm: " + list;
@@ -95,7 +97,8 @@ int main(int argc, char** argv) {
       throw Error(ErrorKind::USAGE, "option.conflict"_id, "", "--body",
                   "cannot be combined with --preset", "leave one of them out");
     samples::Measures measures;
-    if (!body.empty()) measures = samples::measures_from_body(io::read_json(body), body);
+    if (!body.empty())
+      measures = samples::measures_from_body(io::read_json(body), body);
     else if (!preset.empty())
       measures = samples::measures_from_body(samples::make_mannequin(samples::preset(preset)).truth,
                                              preset);
@@ -104,16 +107,19 @@ int main(int argc, char** argv) {
     if (flare > 0 && garment != "skirt")
       throw Error(ErrorKind::USAGE, "sample.option-of-another"_id, "", "--flare",
                   "is of skirts, not of a " + garment, "leave it out");
-    if (flare > 0) made = samples::draft_flared_skirt(measures, flare);
+    if (flare > 0)
+      made = samples::draft_flared_skirt(measures, flare);
     if (band_collar && garment != "shirt")
       throw Error(ErrorKind::USAGE, "sample.option-of-another"_id, "", "--band-collar",
                   "a " + garment + " has no collar", "leave it out");
     if (turned_collar && (band_collar || garment != "shirt"))
       throw Error(ErrorKind::USAGE, "sample.option-of-another"_id, "", "--turned-collar",
                   "there is no collar to turn", "leave it out");
-    if (band_collar) made.remove("collar");
+    if (band_collar)
+      made.remove("collar");
     for (samples::DraftPanel& panel : made.panels)
-      if (turned_collar && panel.name == "collar") panel.roll_edge = "low";
+      if (turned_collar && panel.name == "collar")
+        panel.roll_edge = "low";
     if (body.empty() && preset.empty())
       tool.reporter().warning(
           {"sample.standard-measures"_id, "no --body is given: " + standard_measures(given)});

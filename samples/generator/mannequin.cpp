@@ -83,7 +83,8 @@ GirthFactors fit(const Mannequin& shape, const std::map<std::string, double>& wa
       g.chest = std::clamp(g.chest * std::pow(cage / tape.cage(body.y_bust), 0.9), 0.4, 2.5);
       g.breast_m =
           std::clamp(g.breast_m + 0.45 * (want.at("bust") - tape.trunk(body.y_bust)), -0.03, 0.12);
-    } else correct(g.chest, "bust", tape.trunk(body.y_bust));
+    } else
+      correct(g.chest, "bust", tape.trunk(body.y_bust));
     correct(g.neck, "neck", tape.neck());
     correct(g.thigh, "thigh", tape.leg(0.45 * h));
     correct(g.knee, "knee", tape.leg(body.knee.y()));
@@ -131,7 +132,8 @@ std::map<std::string, double> default_girths(const Mannequin& shape) {
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
-  for (const Preset& p : PRESETS) names.push_back(p.name);
+  for (const Preset& p : PRESETS)
+    names.push_back(p.name);
   return names;
 }
 
@@ -190,14 +192,16 @@ MadeMannequin make_mannequin(const Mannequin& shape) {
   const double scale = h / real.size().y();
   for (Vec3& p : made.mesh.positions) {
     p.y() = (p.y() - real.low.y()) * scale;
-    for (int a = 0; a < 3; ++a) p[a] = std::round(p[a] * 1e6) / 1e6; // micrometres: short files
+    for (int a = 0; a < 3; ++a)
+      p[a] = std::round(p[a] * 1e6) / 1e6; // micrometres: short files
   }
   made.parts = vertex_parts(made.mesh, body);
   made.truth = mannequin_truth(made.mesh, made.parts, body, shape);
   // The origin is below the middle of the hip joints; the figure was modelled around its trunk's
   // axis.
   const double forward = -std::round(body.hip_joint.z() * 1e6) / 1e6;
-  for (Vec3& p : made.mesh.positions) p.z() = std::round((p.z() + forward) * 1e6) / 1e6;
+  for (Vec3& p : made.mesh.positions)
+    p.z() = std::round((p.z() + forward) * 1e6) / 1e6;
   for (auto& [name, landmark] : made.truth["landmarks"].items())
     landmark["p"][2] = std::round((landmark["p"][2].get<double>() + forward) * 1e6) / 1e6;
   return made;

@@ -65,7 +65,8 @@ public:
 private:
   void put(const std::string& name, const Vec3& p, const char* trust, const char* compare = "xyz") {
     m_landmarks[name] = {{"p", io::to_json(p)}, {"trust", trust}};
-    if (std::string(compare) != "xyz") m_landmarks[name]["compare"] = compare;
+    if (std::string(compare) != "xyz")
+      m_landmarks[name]["compare"] = compare;
   }
   /// Both sides; the figure is symmetric.
   void pair(const std::string& name, const Vec3& left, const char* trust,
@@ -77,7 +78,7 @@ private:
   /// The vertex of some parts that goes farthest along d.
   Vec3 farthest(const Vec3& d, const std::function<bool(int)>& keep) const {
     int best = -1;
-    for (int i = 0; i < static_cast<int>(m_mesh.positions.size()); ++i)
+    for (int i = 0; i < std::ssize(m_mesh.positions); ++i)
       if (keep(i) && (best < 0 || m_mesh.positions[i].dot(d) > m_mesh.positions[best].dot(d)))
         best = i;
     return best < 0 ? Vec3(Vec3::Zero()) : m_mesh.positions[best];
@@ -180,7 +181,8 @@ private:
       const Vec3 from = m_body.shoulder_joint + Vec3(-0.005 * h, -0.02 * h, z_shift);
       for (double w = 0.0; w <= 1.0; w += 0.02) {
         const Vec3 d = ((1 - w) * Vec3(-0.25, -1, 0) + w * arm).normalized();
-        if (m_field(from) >= 0) return best;
+        if (m_field(from) >= 0)
+          return best;
         const Vec3 p = exit_point(m_field, from, d);
         if ((p - from).norm() < nearest) {
           nearest = (p - from).norm();
@@ -279,7 +281,8 @@ private:
                               double prominence) {
       std::size_t best = 0;
       for (std::size_t i = 0; i < samples.size(); ++i)
-        if (samples[i].*what < samples[best].*what) best = i;
+        if (samples[i].*what < samples[best].*what)
+          best = i;
       level(name, samples[best].y, "high");
       double above = 0, range_low = samples[best].y, range_high = range_low;
       for (std::size_t i = best; i < samples.size(); ++i)
@@ -302,8 +305,10 @@ private:
       }
     level("hip_girth_max", at, "high");
     double range_low = at, range_high = at;
-    while (trunk_section(range_low - 0.002).girth_m > most - 0.002) range_low -= 0.002;
-    while (trunk_section(range_high + 0.002).girth_m > most - 0.002) range_high += 0.002;
+    while (trunk_section(range_low - 0.002).girth_m > most - 0.002)
+      range_low -= 0.002;
+    while (trunk_section(range_high + 0.002).girth_m > most - 0.002)
+      range_high += 0.002;
     m_levels["hip_girth_max"]["y_range"] = {range_low, range_high};
   }
 
@@ -355,12 +360,15 @@ std::vector<unsigned char> vertex_parts(const TriangleMesh& mesh, const BodyFiel
     const double base =
         body.y_neck_back + (body.y_neck_front - body.y_neck_back) *
                                std::clamp((p.z() + 0.05 * h) / (0.085 * h), 0.0, 1.2);
-    if (p.y() > base && left.x() < 0.06 * h) parts.push_back(HEAD);
+    if (p.y() > base && left.x() < 0.06 * h)
+      parts.push_back(HEAD);
     else if (body.arm(left) < body.trunk(left) && left.x() > body.shoulder_joint.x() - 0.02 * h &&
              body.arm(left) < body.leg(left))
       parts.push_back(is_left ? ARM_L : ARM_R);
-    else if (p.y() < 0.46 * h + 0.45 * left.x()) parts.push_back(is_left ? LEG_L : LEG_R);
-    else parts.push_back(TORSO);
+    else if (p.y() < 0.46 * h + 0.45 * left.x())
+      parts.push_back(is_left ? LEG_L : LEG_R);
+    else
+      parts.push_back(TORSO);
   }
   return parts;
 }

@@ -19,16 +19,20 @@ class Reader {
 public:
   Reader(const io::Json& body, const std::string& file) : m_body(body, file) {}
   bool point(const std::string& name, Vec3& p) const {
-    if (!m_body.has("landmarks") || !m_body.at("landmarks").has(name)) return false;
+    if (!m_body.has("landmarks") || !m_body.at("landmarks").has(name))
+      return false;
     const io::Node entry = m_body.at("landmarks").at(name);
-    if (!entry.has("p") || entry.at("p").is_null()) return false;
+    if (!entry.has("p") || entry.at("p").is_null())
+      return false;
     p = entry.at("p").vec3();
     return true;
   }
   bool level(const std::string& name, double& girth, double& y) const {
-    if (!m_body.has("levels") || !m_body.at("levels").has(name)) return false;
+    if (!m_body.has("levels") || !m_body.at("levels").has(name))
+      return false;
     const io::Node entry = m_body.at("levels").at(name);
-    if (!entry.has("girth_m") || entry.at("girth_m").is_null()) return false;
+    if (!entry.has("girth_m") || entry.at("girth_m").is_null())
+      return false;
     girth = entry.at("girth_m").number();
     y = entry.at("y").number();
     return true;
@@ -39,20 +43,26 @@ public:
     std::map<double, double> by_height;
     double y = 0, around = 0;
     for (const char* name : TRUNK_LEVELS)
-      if (level(name, around, y)) by_height[y] = around;
+      if (level(name, around, y))
+        by_height[y] = around;
     const auto above = by_height.lower_bound(at);
-    if (above == by_height.end() || above == by_height.begin()) return std::nullopt;
+    if (above == by_height.end() || above == by_height.begin())
+      return std::nullopt;
     const auto below = std::prev(above);
     const double share = (at - below->first) / (above->first - below->first);
     return below->second + share * (above->second - below->second);
   }
   void girth(const std::string& name, double& value) const {
-    if (!m_body.has("girths") && !m_body.has("girths_m")) return;
+    if (!m_body.has("girths") && !m_body.has("girths_m"))
+      return;
     const io::Node girths = m_body.at(m_body.has("girths") ? "girths" : "girths_m");
-    if (!girths.has(name)) return;
+    if (!girths.has(name))
+      return;
     const io::Node entry = girths.at(name);
-    if (entry.is_number()) value = entry.number();
-    else if (entry.has("value_m")) value = entry.at("value_m").number();
+    if (entry.is_number())
+      value = entry.number();
+    else if (entry.has("value_m"))
+      value = entry.at("value_m").number();
   }
 
 private:
@@ -60,7 +70,8 @@ private:
 };
 
 void scale_all(Measures& m, double factor) {
-  for (const auto& [name, member] : measure_names()) m.*member *= factor;
+  for (const auto& [name, member] : measure_names())
+    m.*member *= factor;
 }
 
 } // namespace
@@ -131,16 +142,20 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
     waist_y = semantic_y;
   }
   for (const double edge : {waist_y - HALF_BAND, waist_y + HALF_BAND})
-    if (const auto around = r.trunk_girth(edge)) m.waist = std::max(m.waist, *around);
-  if (r.level("bust", girth, y)) m.bust = girth;
+    if (const auto around = r.trunk_girth(edge))
+      m.waist = std::max(m.waist, *around);
+  if (r.level("bust", girth, y))
+    m.bust = girth;
   double hip_y = waist_y - m.waist_to_hip;
   if (r.level("hip", girth, y)) {
     m.hip = girth;
     hip_y = y;
   }
-  if (r.level("hip_girth_max", girth, y)) m.hip = std::max(m.hip, girth);
+  if (r.level("hip_girth_max", girth, y))
+    m.hip = std::max(m.hip, girth);
   m.waist_to_hip = std::max(0.10, waist_y - hip_y);
-  if (r.point("neck_back", p)) m.neck_back_height = p.y();
+  if (r.point("neck_back", p))
+    m.neck_back_height = p.y();
   m.back_length = m.neck_back_height - waist_y;
   if (r.point("crotch", p)) {
     m.body_rise = waist_y - p.y();
@@ -148,14 +163,18 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
   }
   // measured to the modelled waist, in front and behind
   r.girth("crotch_length", m.crotch_length);
-  if (m.crotch_length > 0 && semantic_y > 0) m.crotch_length += 2 * (waist_y - semantic_y);
+  if (m.crotch_length > 0 && semantic_y > 0)
+    m.crotch_length += 2 * (waist_y - semantic_y);
   double deepest = 0; // of both arm pits
   for (const char* pit : {"axilla_l", "axilla_r"})
-    if (r.point(pit, p)) deepest = std::max(deepest, m.neck_back_height - p.y());
-  if (deepest > 0) m.scye_depth = deepest;
+    if (r.point(pit, p))
+      deepest = std::max(deepest, m.neck_back_height - p.y());
+  if (deepest > 0)
+    m.scye_depth = deepest;
   if (r.point("acromion_l", p)) {
     m.shoulder_height = p.y();
-    if (r.point("neck_side_l", q)) m.shoulder = (p - q).norm();
+    if (r.point("neck_side_l", q))
+      m.shoulder = (p - q).norm();
     Vec3 elbow, wrist;
     if (r.point("elbow_l", elbow) && r.point("wrist_l", wrist))
       m.arm_length = (elbow - p).norm() + (wrist - elbow).norm();
@@ -183,7 +202,8 @@ io::Json pattern_document(const Draft& draft) {
       io::Json path = io::Json::array();
       path.push_back({"M", cm(a.x()), cm(a.y())});
       const std::vector<Vec2>& c = p.edges[i].control;
-      if (c.empty()) path.push_back({"L", cm(b.x()), cm(b.y())});
+      if (c.empty())
+        path.push_back({"L", cm(b.x()), cm(b.y())});
       else
         path.push_back(
             {"C", cm(c[0].x()), cm(c[0].y()), cm(c[1].x()), cm(c[1].y()), cm(b.x()), cm(b.y())});
@@ -195,7 +215,8 @@ io::Json pattern_document(const Draft& draft) {
     panel["place"] = {{"part", p.placement.part},
                       {"theta_deg", p.placement.theta_deg},
                       {"anchor", {cm(p.placement.anchor.x()), cm(p.placement.anchor.y())}}};
-    if (p.placement.height > 0) panel["place"]["height"] = cm(p.placement.height);
+    if (p.placement.height > 0)
+      panel["place"]["height"] = cm(p.placement.height);
     d["panels"].push_back(panel);
   }
   d["seams"] = io::Json::array();
@@ -211,7 +232,8 @@ io::Json pattern_document(const Draft& draft) {
                      {"kind", s.kind},
                      {"a", io::Json::array({a})},
                      {"b", io::Json::array({b})}};
-    if (s.ease != 0) seam["ease"] = "sleeve cap";
+    if (s.ease != 0)
+      seam["ease"] = "sleeve cap";
     d["seams"].push_back(seam);
   }
   return d;

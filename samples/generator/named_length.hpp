@@ -12,9 +12,12 @@ inline constexpr double
     SHORTEST = 0.1; ///< m, of what is measured on a person: more is meant in another unit
 /// Metres in a unit; 1 without one, 0 of a unit that is not known.
 inline double metres_in(const std::string& unit) {
-  if (unit.empty() || unit == "m") return 1;
-  if (unit == "cm") return 0.01;
-  if (unit == "mm") return 0.001;
+  if (unit.empty() || unit == "m")
+    return 1;
+  if (unit == "cm")
+    return 0.01;
+  if (unit == "mm")
+    return 0.001;
   return unit == "in" ? 0.0254 : 0;
 }
 

@@ -60,7 +60,8 @@ constexpr int FACE[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4},
 
 int edge_between(int a, int b) {
   for (int e = 0; e < 12; ++e)
-    if ((EDGE[e][0] == a && EDGE[e][1] == b) || (EDGE[e][0] == b && EDGE[e][1] == a)) return e;
+    if ((EDGE[e][0] == a && EDGE[e][1] == b) || (EDGE[e][0] == b && EDGE[e][1] == a))
+      return e;
   return -1;
 }
 
@@ -80,7 +81,8 @@ int cell_patches(const double v[8], int patch[12]) {
       link[a][n_links[a]++] = b;
       link[b][n_links[b]++] = a;
     };
-    if (n == 2) join(crossed[0], crossed[1]);
+    if (n == 2)
+      join(crossed[0], crossed[1]);
     else if (n == 4) { // edges 0 and 1 of the loop meet in corner 1
       const bool inside_1 = v[loop[(at[0] + 1) % 4]] < 0;
       join(crossed[0], crossed[inside_1 ? 1 : 3]);
@@ -90,7 +92,8 @@ int cell_patches(const double v[8], int patch[12]) {
   int patches = 0;
   std::fill(patch, patch + 12, -1);
   for (int e = 0; e < 12; ++e) {
-    if (n_links[e] == 0 || patch[e] >= 0) continue;
+    if (n_links[e] == 0 || patch[e] >= 0)
+      continue;
     for (int at = e; patch[at] < 0;) {
       patch[at] = patches;
       at = patch[link[at][0]] < 0 ? link[at][0] : link[at][1];
@@ -115,10 +118,11 @@ TriangleMesh surface_net(const Grid& g) {
           v[c] = g.value[g.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
           inside += v[c] < 0;
         }
-        if (inside == 0 || inside == 8) continue;
+        if (inside == 0 || inside == 8)
+          continue;
         int patch[12];
         const int patches = cell_patches(v, patch);
-        const int first = static_cast<int>(mesh.positions.size());
+        const int first = std::ssize(mesh.positions);
         for (int q = 0; q < patches; ++q) {
           Vec3 sum = Vec3::Zero();
           int n = 0;
@@ -133,11 +137,13 @@ TriangleMesh surface_net(const Grid& g) {
         }
         cell_of[g.at(i, j, k)] = static_cast<int>(vertex_of_edge.size());
         std::array<int, 12> ids;
-        for (int e = 0; e < 12; ++e) ids[e] = patch[e] < 0 ? -1 : first + patch[e];
+        for (int e = 0; e < 12; ++e)
+          ids[e] = patch[e] < 0 ? -1 : first + patch[e];
         vertex_of_edge.push_back(ids);
       }
   const auto quad = [&](int a, int b, int c, int d, bool flip) {
-    if (flip) std::swap(b, d);
+    if (flip)
+      std::swap(b, d);
     const auto& p = mesh.positions;
     if ((p[a] - p[c]).squaredNorm() <= (p[b] - p[d]).squaredNorm()) {
       mesh.triangles.push_back({a, b, c});
@@ -172,26 +178,30 @@ void even_valence(TriangleMesh& mesh) {
   for (int round = 0; round < 3; ++round) {
     std::map<std::pair<int, int>, std::array<int, 2>> side; // edge -> its two triangles
     std::vector<int> valence(mesh.positions.size(), 0);
-    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    for (int t = 0; t < std::ssize(mesh.triangles); ++t)
       for (int e = 0; e < 3; ++e) {
         const int a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
         auto [it, fresh] =
             side.try_emplace({std::min(a, b), std::max(a, b)}, std::array<int, 2>{t, -1});
-        if (!fresh) it->second[1] = t;
+        if (!fresh)
+          it->second[1] = t;
         ++valence[a];
       }
     std::vector<char> touched(mesh.triangles.size(), 0);
     for (const auto& [edge, tris] : side) {
       const auto [t0, t1] = tris;
-      if (touched[t0] || touched[t1]) continue;
+      if (touched[t0] || touched[t1])
+        continue;
       const int a = edge.first, b = edge.second;
       const auto opposite = [&](int t) {
         for (int v : mesh.triangles[t])
-          if (v != a && v != b) return v;
+          if (v != a && v != b)
+            return v;
         return -1;
       };
       const int c = opposite(t0), d = opposite(t1);
-      if (side.count({std::min(c, d), std::max(c, d)})) continue;
+      if (side.count({std::min(c, d), std::max(c, d)}))
+        continue;
       const auto cost = [](int va, int vb, int vc, int vd) {
         const auto square = [](int n) { return (n - 6) * (n - 6); };
         return square(va) + square(vb) + square(vc) + square(vd);
@@ -206,12 +216,14 @@ void even_valence(TriangleMesh& mesh) {
                  n1 = area_normal(p[f1[0]], p[f1[1]], p[f1[2]]).normalized();
       // In t0 the edge runs either a -> b or b -> a; keep the orientation.
       bool forward = false;
-      for (int e = 0; e < 3; ++e) forward |= f0[e] == a && f0[(e + 1) % 3] == b;
+      for (int e = 0; e < 3; ++e)
+        forward |= f0[e] == a && f0[(e + 1) % 3] == b;
       const Triangle g0 = forward ? Triangle{a, d, c} : Triangle{b, d, c},
                      g1 = forward ? Triangle{d, b, c} : Triangle{d, a, c};
       const Vec3 m0 = area_normal(p[g0[0]], p[g0[1]], p[g0[2]]).normalized(),
                  m1 = area_normal(p[g1[0]], p[g1[1]], p[g1[2]]).normalized();
-      if (n0.dot(n1) < 0.9 || m0.dot(m1) < 0.9 || m0.dot(n0) < 0.9) continue;
+      if (n0.dot(n1) < 0.9 || m0.dot(m1) < 0.9 || m0.dot(n0) < 0.9)
+        continue;
       mesh.triangles[t0] = g0;
       mesh.triangles[t1] = g1;
       touched[t0] = touched[t1] = 1;
@@ -244,7 +256,8 @@ void relax(TriangleMesh& mesh, const Field& f, int rounds) {
       p[i] -= normal * std::clamp(f(p[i]), -0.002, 0.002); // roughly back; the last step is exact
     }
   }
-  for (Vec3& q : p) q = onto_surface(f, q, 1);
+  for (Vec3& q : p)
+    q = onto_surface(f, q, 1);
 }
 
 int n_components(const TriangleMesh& mesh) {
@@ -278,25 +291,30 @@ Vec3 onto_surface(const Field& f, Vec3 p, int steps) {
 bool is_closed_manifold(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> half; // directed edge -> triangle
   std::vector<int> corners(mesh.positions.size(), 0), start(mesh.positions.size(), -1);
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+  for (int t = 0; t < std::ssize(mesh.triangles); ++t)
     for (int e = 0; e < 3; ++e) {
       const int a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
-      if (a == b || !half.emplace(std::make_pair(a, b), t).second) return false;
+      if (a == b || !half.emplace(std::make_pair(a, b), t).second)
+        return false;
       ++corners[a];
       start[a] = b;
     }
   for (const auto& [edge, t] : half)
-    if (!half.count({edge.second, edge.first})) return false;
-  for (int v = 0; v < static_cast<int>(corners.size()); ++v) {
-    if (corners[v] == 0) return false;
+    if (!half.count({edge.second, edge.first}))
+      return false;
+  for (int v = 0; v < std::ssize(corners); ++v) {
+    if (corners[v] == 0)
+      return false;
     int b = start[v], n = 0;
     do { // walk around v; a second fan would be missed by one walk
       const Triangle& f = mesh.triangles[half.at({v, b})];
       for (int e = 0; e < 3; ++e)
-        if (f[e] == v) b = f[(e + 2) % 3];
+        if (f[e] == v)
+          b = f[(e + 2) % 3];
       ++n;
     } while (b != start[v] && n <= corners[v]);
-    if (n != corners[v]) return false;
+    if (n != corners[v])
+      return false;
   }
   return true;
 }
@@ -305,7 +323,8 @@ TriangleMesh polygonise(const Field& f, const Box3& box, double cell) {
   for (int attempt = 0; attempt < 12; ++attempt) {
     const Vec3 shift = Vec3(0.5 + 0.137 * attempt, 0.5 + 0.271 * attempt, 0.5 + 0.419 * attempt);
     TriangleMesh mesh = surface_net(sample(f, box, cell, shift - shift.array().floor().matrix()));
-    if (mesh.triangles.empty() || !is_closed_manifold(mesh) || n_components(mesh) != 1) continue;
+    if (mesh.triangles.empty() || !is_closed_manifold(mesh) || n_components(mesh) != 1)
+      continue;
     relax(mesh, f, 2);
     even_valence(mesh);
     relax(mesh, f, 4);

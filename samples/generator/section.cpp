@@ -6,7 +6,8 @@ namespace sloper::samples {
 
 Section2 hull_section(const std::vector<Vec3>& points, const Vec3& u, const Vec3& v) {
   Section2 s;
-  if (points.size() < 3) return s;
+  if (points.size() < 3)
+    return s;
   const Vec3 o = points.front();
   std::vector<Vec2> q;
   Box3 box;
@@ -39,7 +40,8 @@ Section2 hull_section(const std::vector<Vec3>& points, const Vec3& u, const Vec3
     s.area += 0.5 * cross;
     middle += cross / 6 * (a + b);
   }
-  if (s.area <= 0) return s;
+  if (s.area <= 0)
+    return s;
   middle /= s.area;
   s.center = o + middle.x() * u + middle.y() * v;
   s.low = box.low;
@@ -75,9 +77,12 @@ Section2 mesh_section(const TriangleMesh& mesh, const Vec3& point, const Vec3& n
   std::vector<Vec3> points;
   for (const Triangle& t : mesh.triangles) {
     double d[3];
-    for (int k = 0; k < 3; ++k) d[k] = (mesh.positions[t[k]] - point).dot(normal);
-    if ((d[0] > 0) == (d[1] > 0) && (d[1] > 0) == (d[2] > 0)) continue;
-    if (!keep(t)) continue;
+    for (int k = 0; k < 3; ++k)
+      d[k] = (mesh.positions[t[k]] - point).dot(normal);
+    if ((d[0] > 0) == (d[1] > 0) && (d[1] > 0) == (d[2] > 0))
+      continue;
+    if (!keep(t))
+      continue;
     for (int k = 0; k < 3; ++k) {
       const int m = (k + 1) % 3;
       if ((d[k] > 0) != (d[m] > 0))

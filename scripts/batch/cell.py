@@ -1,4 +1,5 @@
-"""One body or one cell, made in a folder of its own that is renamed into place when it is whole. A failed cell is a result too."""
+"""One body or one cell, made in a folder of its own that is renamed into place when it is whole. A
+failed cell is a result too."""
 import contextlib
 import glob
 import gzip
@@ -46,7 +47,14 @@ def run(command, timeout_s, folder):
     start = time.monotonic()
     environment = dict(os.environ, LC_ALL="C.UTF-8")
     late = threading.Event()
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=folder, env=environment)
+    process = subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        cwd=folder,
+        env=environment,
+    )
 
     def stop():
         late.set()
@@ -63,7 +71,11 @@ def run(command, timeout_s, folder):
         code, lines = "time out", []
     elif code < 0:
         code = f"signal {-code}"
-    cost = {"wall_s": round(time.monotonic() - start, 3), "cpu_s": round(used.ru_utime + used.ru_stime, 3), "peak_mb": round(used.ru_maxrss / 1024, 1)}
+    cost = {
+        "wall_s": round(time.monotonic() - start, 3),
+        "cpu_s": round(used.ru_utime + used.ru_stime, 3),
+        "peak_mb": round(used.ru_maxrss / 1024, 1),
+    }
     message = lines[-1] if lines else ""
     for path in [folder, *(os.path.dirname(word) for word in command[1:] if word.startswith("/"))]:
         message = message.replace(path + "/", "")
@@ -71,7 +83,8 @@ def run(command, timeout_s, folder):
 
 
 def refuse_full_disk(code, message):
-    """What cannot be written is not a result: the cell stays missing and is made when there is room."""
+    """What cannot be written is not a result: the cell stays missing and is made when there is
+    room."""
     if code == CANNOT_WRITE:
         raise OSError(f"cannot write: {message}")
 
@@ -94,10 +107,28 @@ def make_body(plan, number):
         planning.write_json(os.path.join(folder, "body.json"), document)
     else:
         settings = plan.settings
-        command = [plan.programs["scan-landmarks"]["path"], "--threads", "1", "--unit", settings["unit"], "--up", settings["up"], "-o", "body.json", body["scan"]]
+        command = [
+            plan.programs["scan-landmarks"]["path"],
+            "--threads",
+            "1",
+            "--unit",
+            settings["unit"],
+            "--up",
+            settings["up"],
+            "-o",
+            "body.json",
+            body["scan"],
+        ]
         code, message, _ = run(command, settings["timeout_s"], folder)
         refuse_full_disk(code, message)
-    planning.write_json(os.path.join(folder, "status.json"), {"exit": code, "message": message, "usable": os.path.exists(os.path.join(folder, "body.json"))})
+    planning.write_json(
+        os.path.join(folder, "status.json"),
+        {
+            "exit": code,
+            "message": message,
+            "usable": os.path.exists(os.path.join(folder, "body.json")),
+        },
+    )
     put_in_place(folder, target)
 
 
@@ -108,7 +139,9 @@ def cause_of(code, fit, report):
     if isinstance(code, str) or code == 70:
         return "crash"
     if fit and fit.get("fits") is False and code in (1, 4):
-        return "cannot go on" if not fit.get("girths") and not fit.get("regions") else "does not fit"
+        return (
+            "cannot go on" if not fit.get("girths") and not fit.get("regions") else "does not fit"
+        )
     if code == 0:
         return "dressed"
     if code == 4:
@@ -118,7 +151,9 @@ def cause_of(code, fit, report):
         if quality.get("self_intersections"):
             return "through itself"
         return "not at rest"
-    return {1: "does not fit", 2: "wrong command line", 3: "bad input", 5: "cannot write"}.get(code, "crash")
+    return {1: "does not fit", 2: "wrong command line", 3: "bad input", 5: "cannot write"}.get(
+        code, "crash"
+    )
 
 
 def add_bytes(archive, name, data, mode=0o644):
@@ -128,11 +163,19 @@ def add_bytes(archive, name, data, mode=0o644):
 
 
 def write_bundle(path, files, command, code, message, versions):
-    """Inputs, the command and what came of it: unpack, `sh replay` does it again. The same bytes every time."""
+    """Inputs, the command and what came of it: unpack, `sh replay` does it again. The same bytes
+    every time."""
     stem = "repro"
-    replay = ("#!/bin/sh\n# Does the failed cell again; the programs are taken from PATH. It ended with: "
-              f"{code}\n" + "".join(f"# {v}\n" for v in versions) + 'cd "$(dirname "$0")" || exit 70\n' + shlex.join(command) + '\nstatus=$?\necho "exit $status; the batch had '
-              + str(code) + '"\n')
+    replay = (
+        "#!/bin/sh\n# Does the failed cell again; the programs are taken from PATH. It ended with: "
+        f"{code}\n"
+        + "".join(f"# {v}\n" for v in versions)
+        + 'cd "$(dirname "$0")" || exit 70\n'
+        + shlex.join(command)
+        + '\nstatus=$?\necho "exit $status; the batch had '
+        + str(code)
+        + '"\n'
+    )
     raw = io.BytesIO()
     with tarfile.open(fileobj=raw, mode="w", format=tarfile.USTAR_FORMAT) as archive:
         for name, source in sorted(files.items()):
@@ -140,7 +183,9 @@ def write_bundle(path, files, command, code, message, versions):
                 add_bytes(archive, f"{stem}/{name}", file.read())
         add_bytes(archive, f"{stem}/message.txt", (message + "\n").encode())
         add_bytes(archive, f"{stem}/replay", replay.encode(), 0o755)
-    with open(path, "wb") as file, gzip.GzipFile(filename="", fileobj=file, mode="wb", mtime=0) as zipped:
+    with open(path, "wb") as file, gzip.GzipFile(
+        filename="", fileobj=file, mode="wb", mtime=0
+    ) as zipped:
         zipped.write(raw.getvalue())
 
 
@@ -165,11 +210,31 @@ def make_cell(plan, number):
     status = {k: cell[k] for k in ("name", "garment", "size", "scan")}
     versions = [tools[p]["version"] for p in ("scan-landmarks", "retarget-garment")]
     if not body_status["usable"]:
-        status.update(exit=body_status["exit"], cause="bad scan", message=body_status["message"], dressed=False)
+        status.update(
+            exit=body_status["exit"],
+            cause="bad scan",
+            message=body_status["message"],
+            dressed=False,
+        )
         scan = plan.scan(scan_number)["scan"]
         name = os.path.basename(scan)
-        write_bundle(os.path.join(folder, "failure.repro.tgz"), {name: scan}, ["scan-landmarks", "--unit", settings["unit"], "--up", settings["up"], "-o", "body.json", name],
-                     body_status["exit"], body_status["message"], versions)
+        write_bundle(
+            os.path.join(folder, "failure.repro.tgz"),
+            {name: scan},
+            [
+                "scan-landmarks",
+                "--unit",
+                settings["unit"],
+                "--up",
+                settings["up"],
+                "-o",
+                "body.json",
+                name,
+            ],
+            body_status["exit"],
+            body_status["message"],
+            versions,
+        )
         planning.write_json(os.path.join(folder, "status.json"), status)
         put_in_place(folder, target)
         return
@@ -180,29 +245,74 @@ def make_cell(plan, number):
         options.append("--nearest-size")
     is_mesh = not cell["garment_file"].endswith(".json")
     if is_mesh:
-        options += ["--from", settings["from"], *(["--fabric", settings["fabric"]] if settings.get("fabric") else [])]
-    command = [tools["retarget-garment"]["path"], "--threads", "1", "--cache", plan.skins, "--garment", cell["garment_file"], "--to", os.path.join(body_folder, "body.json"), *options,
-               *(["--policy", settings["policy"]] if settings["policy"] else []), "--fit", "fit.json", "--fit-page", "fit.html", "--report", "report.json", "-o", "garment.json"]
+        options += [
+            "--from",
+            settings["from"],
+            *(["--fabric", settings["fabric"]] if settings.get("fabric") else []),
+        ]
+    command = [
+        tools["retarget-garment"]["path"],
+        "--threads",
+        "1",
+        "--cache",
+        plan.skins,
+        "--garment",
+        cell["garment_file"],
+        "--to",
+        os.path.join(body_folder, "body.json"),
+        *options,
+        *(["--policy", settings["policy"]] if settings["policy"] else []),
+        "--fit",
+        "fit.json",
+        "--fit-page",
+        "fit.html",
+        "--report",
+        "report.json",
+        "-o",
+        "garment.json",
+    ]
     code, message, cost = run(command, settings["timeout_s"], folder)
     refuse_full_disk(code, message)
-    fit, report = optional_json(os.path.join(folder, "fit.json")), optional_json(os.path.join(folder, "report.json"))
+    fit, report = optional_json(os.path.join(folder, "fit.json")), optional_json(
+        os.path.join(folder, "report.json")
+    )
     cause = cause_of(code, fit, report)
     status.update(exit=code, cause=cause, message=message, dressed=cause == "dressed")
     if fit:
-        status.update(fits=fit["fits"], verdict=fit["verdict"], reason=fit["reason"], margin_cm=fit["margin_cm"]["value"], margin_at=fit["margin_cm"]["girth"],
-                      margin_uncertainty_cm=fit["girths"].get(fit["margin_cm"]["girth"], {}).get("ease_cm", {}).get("uncertainty"),
-                      ease_percent={name: g["ease_percent"]["value"] for name, g in fit["girths"].items()}, strain_p99=fit["strain"]["p99"])
+        status.update(
+            fits=fit["fits"],
+            verdict=fit["verdict"],
+            reason=fit["reason"],
+            margin_cm=fit["margin_cm"]["value"],
+            margin_at=fit["margin_cm"]["girth"],
+            margin_uncertainty_cm=fit["girths"]
+            .get(fit["margin_cm"]["girth"], {})
+            .get("ease_cm", {})
+            .get("uncertainty"),
+            ease_percent={name: g["ease_percent"]["value"] for name, g in fit["girths"].items()},
+            strain_p99=fit["strain"]["p99"],
+        )
     if fit and "probability" in fit:
         status["probability"] = fit["probability"]["fits"]
     if report and cell["sizes"]:
         ranking = report["sizes"]
-        status.update(size=planning.stem(ranking["nearest_first"][0]["file"]).partition("@")[2], nearest_sureness=ranking["sureness"])
+        status.update(
+            size=planning.stem(ranking["nearest_first"][0]["file"]).partition("@")[2],
+            nearest_sureness=ranking["sureness"],
+        )
     if report:
         quality = report.get("quality") or {}
-        status["quality"] = {k: quality[k] for k in ("faces_through_body", "vertices_inside_body", "self_intersections") if k in quality}
+        status["quality"] = {
+            k: quality[k]
+            for k in ("faces_through_body", "vertices_inside_body", "self_intersections")
+            if k in quality
+        }
         status["steps"] = report.get("steps")
     if cause not in ("dressed", "does not fit", "cannot go on"):
-        files = {"body.json": os.path.join(body_folder, "body.json"), "body.obj": os.path.join(body_folder, "body.obj")}
+        files = {
+            "body.json": os.path.join(body_folder, "body.json"),
+            "body.obj": os.path.join(body_folder, "body.obj"),
+        }
         worn = os.path.basename(cell["garment_file"]) if is_mesh else "garment.json"
         files[worn] = cell["garment_file"]
         if is_mesh:
@@ -212,7 +322,13 @@ def make_cell(plan, number):
         elif cell["sizes"]:
             del files[worn]
             worn = os.path.basename(cell["garment_file"])
-            files.update({os.path.basename(path): path for size in cell["sizes"] for path in planning.checked(size)})
+            files.update(
+                {
+                    os.path.basename(path): path
+                    for size in cell["sizes"]
+                    for path in planning.checked(size)
+                }
+            )
         else:
             mesh = os.path.splitext(cell["garment_file"])[0] + ".obj"
             files[os.path.basename(mesh)] = mesh
@@ -220,33 +336,71 @@ def make_cell(plan, number):
         if settings["policy"]:
             files["policy.json"] = settings["policy"]
             replay += ["--policy", "policy.json"]
-        write_bundle(os.path.join(folder, "failure.repro.tgz"), files, [*replay, "--report", "report.json", "-o", "out.json"], code, message, versions)
+        write_bundle(
+            os.path.join(folder, "failure.repro.tgz"),
+            files,
+            [*replay, "--report", "report.json", "-o", "out.json"],
+            code,
+            message,
+            versions,
+        )
     if settings["pictures"] and os.path.exists(os.path.join(folder, "garment.json")):
-        run([tools["render-png"]["path"], "--threads", "1", "--size", "240x360", "-o", "thumbnail.png", os.path.join(body_folder, "body.json"), "garment.json"], 60, folder)
+        run(
+            [
+                tools["render-png"]["path"],
+                "--threads",
+                "1",
+                "--size",
+                "240x360",
+                "-o",
+                "thumbnail.png",
+                os.path.join(body_folder, "body.json"),
+                "garment.json",
+            ],
+            60,
+            folder,
+        )
     # What differs from run to run stands apart from the results.
     times = os.path.join(plan.out, "timings", plan.place(cell["key"]))
     os.makedirs(times, exist_ok=True)
     if report:
         os.replace(os.path.join(folder, "report.json"), os.path.join(times, "report.json"))
-    planning.write_json(os.path.join(times, "timing.json"), {"name": cell["name"], "cause": cause, "host": os.uname().nodename, "steps": (report or {}).get("steps"), **cost})
+    planning.write_json(
+        os.path.join(times, "timing.json"),
+        {
+            "name": cell["name"],
+            "cause": cause,
+            "host": os.uname().nodename,
+            "steps": (report or {}).get("steps"),
+            **cost,
+        },
+    )
     planning.write_json(os.path.join(folder, "status.json"), status)
     put_in_place(folder, target)
 
 
 def make_slice(plan, kind, first, last):
-    """Bodies or cells first to last, last excluded. A full disk ends a slice with one line and exit status 5; what is made stays."""
+    """Bodies or cells first to last, last excluded. A full disk ends a slice with one line and exit
+    status 5; what is made stays."""
     try:
         for number in range(first, last):
             if kind == "bodies":
                 make_body(plan, number)
             elif not plan.is_made(number):
                 make_cell(plan, number)
-                with contextlib.suppress(OSError), open(os.path.join(plan.out, "work", PROGRESS), "ab") as file:
+                with contextlib.suppress(OSError), open(
+                    os.path.join(plan.out, "work", PROGRESS), "ab"
+                ) as file:
                     file.write(b".")
     except OSError as error:
         for parent in (plan.out, plan.cache):
-            for left in glob.glob(os.path.join(parent, "work", f"*.{os.uname().nodename}.{os.getpid()}")):
+            for left in glob.glob(
+                os.path.join(parent, "work", f"*.{os.uname().nodename}.{os.getpid()}")
+            ):
                 shutil.rmtree(left, ignore_errors=True)
-        print(f"retarget-batch: {kind} {first} to {last - 1}: {error}; they are made when the batch is started again", flush=True)
+        print(
+            f"retarget-batch: {kind} {first} to {last - 1}: {error}; they are made when the batch is started again",
+            flush=True,
+        )
         return CANNOT_WRITE
     return 0

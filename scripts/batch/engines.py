@@ -1,4 +1,5 @@
-"""GNU make does the work on this machine: a target of batch.mk is a slice of the cells, one cell where there are few."""
+"""GNU make does the work on this machine: a target of batch.mk is a slice of the cells, one cell
+where there are few."""
 import os
 import shlex
 import subprocess
@@ -11,7 +12,8 @@ PROGRESS = "progress"  # OUT/work/progress grows by one byte for each cell that 
 
 
 def write_make_file(plan, missing, script):
-    """batch.mk: a target for each slice of bodies and of cells; `todo` are those in which something is missing.
+    """batch.mk: a target for each slice of bodies and of cells; `todo` are those in which something
+    is missing.
 
     missing: [first, last) ranges of cell numbers, ascending."""
     one = f"@{shlex.quote(sys.executable)} {shlex.quote(script)} --slice {shlex.quote(plan.out)}"
@@ -20,7 +22,9 @@ def write_make_file(plan, missing, script):
     path = os.path.join(plan.out, "batch.mk")
     temporary = f"{path}.{os.getpid()}.tmp"
     with open(temporary, "w") as file:
-        file.write("# Made by retarget-batch: make -k -j N -C THIS-FOLDER -f batch.mk\n# bodies-FIRST-LAST and cells-FIRST-LAST make what is missing of these.\n.SUFFIXES:\n.PHONY: all todo\nall:\n")
+        file.write(
+            "# Made by retarget-batch: make -k -j N -C THIS-FOLDER -f batch.mk\n# bodies-FIRST-LAST and cells-FIRST-LAST make what is missing of these.\n.SUFFIXES:\n.PHONY: all todo\nall:\n"
+        )
         for first, last in slices["bodies"]:
             file.write(f"bodies-{first}-{last}:\n\t{one} bodies {first}-{last}\n")
         for first, last, body in slices["cells"]:
@@ -30,7 +34,9 @@ def write_make_file(plan, missing, script):
                 i += 1
             if i < len(missing) and missing[i][0] < last:
                 todo.append(name)
-            file.write(f"{name}: | bodies-{slices['bodies'][body][0]}-{slices['bodies'][body][1]}\n\t{one} cells {first}-{last}\n")
+            file.write(
+                f"{name}: | bodies-{slices['bodies'][body][0]}-{slices['bodies'][body][1]}\n\t{one} cells {first}-{last}\n"
+            )
         file.write(f"all: {' '.join(names)}\ntodo: {' '.join(todo)}\n")
     os.replace(temporary, path)
 
@@ -65,7 +71,9 @@ class Progress:
         if made:
             seconds = (time.monotonic() - self.begun) / made * (self.total - self.at_start - made)
             left = f", {int(seconds) // 60}:{int(seconds) % 60:02d} left"
-        sys.stderr.write(f"\rretarget-batch: {self.at_start + made} of {self.total} cells{left}\033[K")
+        sys.stderr.write(
+            f"\rretarget-batch: {self.at_start + made} of {self.total} cells{left}\033[K"
+        )
         sys.stderr.flush()
 
     def end(self):
@@ -76,10 +84,25 @@ class Progress:
 
 
 def run_make(plan, options, progress):
-    command = ["make", "-k", "-s", f"-j{options.jobs}", "--no-print-directory", "-C", plan.out, "-f", "batch.mk", "todo"]
-    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+    command = [
+        "make",
+        "-k",
+        "-s",
+        f"-j{options.jobs}",
+        "--no-print-directory",
+        "-C",
+        plan.out,
+        "-f",
+        "batch.mk",
+        "todo",
+    ]
+    environment = {
+        k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")
+    }
     with open(os.path.join(plan.out, "batch.log"), "a") as log:
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=environment)
+        process = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=environment
+        )
         try:
             while process.poll() is None:
                 progress.show()

@@ -1,7 +1,9 @@
-"""The population page: how many are dressed, how they fit, the worst first. One HTML file and the cells' pictures; no network.
+"""The population page: how many are dressed, how they fit, the worst first. One HTML file and the
+cells' pictures; no network.
 
-Of up to SMALL cells the page holds each one. Of more it holds counts, quantiles and the WORST cells; the others stand in
-tables of ROWS rows below OUT/page, which it loads when they are asked for.
+Of up to SMALL cells the page holds each one. Of more it holds counts, quantiles and the WORST
+cells; the others stand in tables of ROWS rows below OUT/page, which it loads when they are asked
+for.
 """
 import array
 import heapq
@@ -58,30 +60,49 @@ def wilson(good, n, z=1.96):
     if n == 0:
         return 0.0, 1.0
     p, zz = good / n, z * z
-    middle, half = (p + zz / (2 * n)) / (1 + zz / n), z / (1 + zz / n) * math.sqrt(p * (1 - p) / n + zz / (4 * n * n))
+    middle, half = (p + zz / (2 * n)) / (1 + zz / n), z / (1 + zz / n) * math.sqrt(
+        p * (1 - p) / n + zz / (4 * n * n)
+    )
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
 def sureness(best, second=None):
-    """How likely the best size has the larger margin, from the uncertainties of both, taken as standard deviations of independent normal errors. A
-    body that is measured wrong moves both margins alike, so it is more likely than that where one girth decides both. None: there is no other."""
+    """How likely the best size has the larger margin, from the uncertainties of both, taken as
+    standard deviations of independent normal errors. A body that is measured wrong moves both
+    margins alike, so it is more likely than that where one girth decides both. None: there is no
+    other.
+    """
     if second is None:
         return None
-    spread = math.hypot(best.get("margin_uncertainty_cm") or 0, second.get("margin_uncertainty_cm") or 0)
-    return 0.5 * (1 + math.erf((best["margin_cm"] - second["margin_cm"]) / max(spread, 1e-9) / math.sqrt(2)))
+    spread = math.hypot(
+        best.get("margin_uncertainty_cm") or 0, second.get("margin_uncertainty_cm") or 0
+    )
+    return 0.5 * (
+        1 + math.erf((best["margin_cm"] - second["margin_cm"]) / max(spread, 1e-9) / math.sqrt(2))
+    )
 
 
 def best_sizes(statuses):
-    """(garment, scan) -> (size, margin, girth, runner-up, sureness): the dressed size whose least margin is largest."""
+    """(garment, scan) -> (size, margin, girth, runner-up, sureness): the dressed size whose least
+    margin is largest."""
     groups = {}
     for s in statuses:
         if s["size"]:
             groups.setdefault((s["garment"], s["scan"]), []).append(s)
     best = {}
     for group, members in groups.items():
-        fitting = sorted((s for s in members if s["dressed"] and s.get("fits")), key=lambda s: (-s["margin_cm"], s["size"]))
+        fitting = sorted(
+            (s for s in members if s["dressed"] and s.get("fits")),
+            key=lambda s: (-s["margin_cm"], s["size"]),
+        )
         if fitting:
-            best[group] = (fitting[0]["size"], fitting[0]["margin_cm"], fitting[0]["margin_at"], fitting[1]["size"] if len(fitting) > 1 else "", sureness(*fitting[:2]))
+            best[group] = (
+                fitting[0]["size"],
+                fitting[0]["margin_cm"],
+                fitting[0]["margin_at"],
+                fitting[1]["size"] if len(fitting) > 1 else "",
+                sureness(*fitting[:2]),
+            )
         else:
             best[group] = ("", None, "", "", None)
     return best
@@ -98,7 +119,11 @@ def css_class(cause):
 def badness(status):
     """Worst first: failures, refusals, then by margin."""
     order = {"ok": 2, "no": 1, "bad": 0}[css_class(status["cause"])]
-    return order, status.get("margin_cm") if status.get("margin_cm") is not None else -1e9, status["name"]
+    return (
+        order,
+        status.get("margin_cm") if status.get("margin_cm") is not None else -1e9,
+        status["name"],
+    )
 
 
 def heat_colour(percent):
@@ -116,12 +141,20 @@ def heat_map(garment, statuses):
         for name in s.get("ease_percent", {}):
             girths[name] = girths.get(name, 0) + 1
     names = sorted((n for n in girths if not n.endswith("_r")), key=lambda n: (-girths[n], n))
-    text = f"<h3>{html.escape(garment)}</h3><div class=wide><table class=heat><thead><tr><th></th>" + "".join(f"<th>{html.escape(n.replace('_', ' '))}</th>" for n in names) + "</tr></thead><tbody>"
+    text = (
+        f"<h3>{html.escape(garment)}</h3><div class=wide><table class=heat><thead><tr><th></th>"
+        + "".join(f"<th>{html.escape(n.replace('_', ' '))}</th>" for n in names)
+        + "</tr></thead><tbody>"
+    )
     for s in sorted(statuses, key=lambda s: s["scan"]):
         ease = s.get("ease_percent", {})
         text += f'<tr><td class="{css_class(s["cause"])}">{html.escape(s["scan"])}</td>'
         for n in names:
-            text += f'<td style="background:{heat_colour(ease[n])}">{ease[n]:.0f}</td>' if n in ease else "<td></td>"
+            text += (
+                f'<td style="background:{heat_colour(ease[n])}">{ease[n]:.0f}</td>'
+                if n in ease
+                else "<td></td>"
+            )
         text += "</tr>"
     return text + "</tbody></table></div>"
 
@@ -152,10 +185,23 @@ class Totals:
         for cause in self.causes:
             if cause is not None:
                 count[cause] = count.get(cause, 0) + 1
-        cells, dressed, refused = sum(count.values()), sum(count.get(c, 0) for c in GOOD), sum(count.get(c, 0) for c in REFUSED)
+        cells, dressed, refused = (
+            sum(count.values()),
+            sum(count.get(c, 0) for c in GOOD),
+            sum(count.get(c, 0) for c in REFUSED),
+        )
         tried = cells - refused
         low, high = wilson(dressed, tried)
-        return {"cells": cells, "dressed": dressed, "refused": refused, "tried": tried, "rate": dressed / tried if tried else None, "low": low, "high": high, "causes": count}
+        return {
+            "cells": cells,
+            "dressed": dressed,
+            "refused": refused,
+            "tried": tried,
+            "rate": dressed / tried if tried else None,
+            "low": low,
+            "high": high,
+            "causes": count,
+        }
 
 
 def figures_html(totals, figures, missing):
@@ -166,11 +212,13 @@ def figures_html(totals, figures, missing):
         text += f'<div><b class="{css_class(cause)}">{n}</b>{html.escape(cause)}</div>'
     text += "</div>\n"
     if missing:
-        text += f"<p class=bad>{missing} cells are missing; start the batch again to make them.</p>\n"
+        text += (
+            f"<p class=bad>{missing} cells are missing; start the batch again to make them.</p>\n"
+        )
     return text
 
 
-CELLS_HEAD = "<div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th title=\"probability that it fits\">fits %<th>strain p99 %<th>CPU s<th>why</tr></thead><tbody>\n"
+CELLS_HEAD = '<div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th title="probability that it fits">fits %<th>strain p99 %<th>CPU s<th>why</tr></thead><tbody>\n'
 
 
 def why_html(s):
@@ -181,28 +229,53 @@ def why_html(s):
 
 
 def row_html(s):
-    margin = f'<td class=n data-v="{s["margin_cm"]:.3f}">{s["margin_cm"]:.1f}</td>' if s.get("margin_cm") is not None else '<td data-v="-999"></td>'
-    chance = f'<td class=n>{100 * s["probability"]:.0f}</td>' if s.get("probability") is not None else "<td></td>"
-    strain = f'<td class=n data-v="{s["strain_p99"]:.4f}">{100 * s["strain_p99"]:.1f}</td>' if s.get("strain_p99") is not None else "<td></td>"
-    return (f'<tr><td>{html.escape(s["garment"])}<td>{html.escape(s["size"])}<td>{html.escape(s["scan"])}<td class="{css_class(s["cause"])}">{html.escape(s["cause"])}</td>'
-            f'{margin}{chance}{strain}<td class=n data-key="{s["key"]}"></td><td class=words>{why_html(s)}</td></tr>\n')
+    margin = (
+        f'<td class=n data-v="{s["margin_cm"]:.3f}">{s["margin_cm"]:.1f}</td>'
+        if s.get("margin_cm") is not None
+        else '<td data-v="-999"></td>'
+    )
+    chance = (
+        f'<td class=n>{100 * s["probability"]:.0f}</td>'
+        if s.get("probability") is not None
+        else "<td></td>"
+    )
+    strain = (
+        f'<td class=n data-v="{s["strain_p99"]:.4f}">{100 * s["strain_p99"]:.1f}</td>'
+        if s.get("strain_p99") is not None
+        else "<td></td>"
+    )
+    return (
+        f'<tr><td>{html.escape(s["garment"])}<td>{html.escape(s["size"])}<td>{html.escape(s["scan"])}<td class="{css_class(s["cause"])}">{html.escape(s["cause"])}</td>'
+        f'{margin}{chance}{strain}<td class=n data-key="{s["key"]}"></td><td class=words>{why_html(s)}</td></tr>\n'
+    )
 
 
 def best_row_html(garment, scan, best):
     size, margin, at, second, sure = best
-    return (f"<tr><td>{html.escape(garment)}<td>{html.escape(scan)}<td>" + (html.escape(size) if size else "<span class=no>none fits</span>")
-            + (f"<td class=n>{margin:.1f}" if margin is not None else "<td>") + f"<td>{html.escape(at.replace('_', ' '))}<td>{html.escape(second)}"
-            + (f"<td class=n>{100 * sure:.0f}" if sure is not None else "<td>") + "</tr>\n")
+    return (
+        f"<tr><td>{html.escape(garment)}<td>{html.escape(scan)}<td>"
+        + (html.escape(size) if size else "<span class=no>none fits</span>")
+        + (f"<td class=n>{margin:.1f}" if margin is not None else "<td>")
+        + f"<td>{html.escape(at.replace('_', ' '))}<td>{html.escape(second)}"
+        + (f"<td class=n>{100 * sure:.0f}" if sure is not None else "<td>")
+        + "</tr>\n"
+    )
 
 
 def pictures_html(out, statuses):
-    shown = [s for s in statuses if os.path.exists(os.path.join(out, "cells", s["place"], "thumbnail.png"))]
+    shown = [
+        s
+        for s in statuses
+        if os.path.exists(os.path.join(out, "cells", s["place"], "thumbnail.png"))
+    ]
     if not shown:
         return ""
     text = "\n<h2>Pictures, worst first</h2><div class=cells>\n"
     for s in shown:
-        text += (f'<figure class="{css_class(s["cause"])}"><img loading=lazy width=240 height=360 alt="{html.escape(s["name"])}" src="cells/{s["place"]}/thumbnail.png">'
-                 f'<figcaption>{html.escape(s["name"])}<br><span class="{css_class(s["cause"])}">{html.escape(s["cause"])}</span></figcaption></figure>\n')
+        text += (
+            f'<figure class="{css_class(s["cause"])}"><img loading=lazy width=240 height=360 alt="{html.escape(s["name"])}" src="cells/{s["place"]}/thumbnail.png">'
+            f'<figcaption>{html.escape(s["name"])}<br><span class="{css_class(s["cause"])}">{html.escape(s["cause"])}</span></figcaption></figure>\n'
+        )
     return text + "</div>\n"
 
 
@@ -217,11 +290,21 @@ class SmallPage:
 
     def body(self):
         listed = sorted(self.listed, key=badness)
-        text = "<h2>All cells, worst first</h2>" + CELLS_HEAD + "".join(map(row_html, listed)) + "</tbody></table></div>\n"
+        text = (
+            "<h2>All cells, worst first</h2>"
+            + CELLS_HEAD
+            + "".join(map(row_html, listed))
+            + "</tbody></table></div>\n"
+        )
         best = best_sizes(listed)
         if best:
             text += '<h2>Best size</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best<th title="how likely it has the larger margin, by the uncertainties of both">sure %</tr></thead><tbody>\n'
-            text += "".join(best_row_html(garment, scan, of) for (garment, scan), of in sorted(best.items())) + "</tbody></table></div>\n"
+            text += (
+                "".join(
+                    best_row_html(garment, scan, of) for (garment, scan), of in sorted(best.items())
+                )
+                + "</tbody></table></div>\n"
+            )
         text += "<h2>Ease in % of the girth</h2>\n"
         groups = {}
         for s in listed:
@@ -256,7 +339,9 @@ class LargePage:
         heapq.heappush(self.worst, Worst(s))
         if len(self.worst) > WORST:
             heapq.heappop(self.worst)
-        of = self.of.setdefault(name, {"causes": {}, "margin": array.array("f"), "ease": {}, "cpu_s": 0.0})
+        of = self.of.setdefault(
+            name, {"causes": {}, "margin": array.array("f"), "ease": {}, "cpu_s": 0.0}
+        )
         of["causes"][s["cause"]] = of["causes"].get(s["cause"], 0) + 1
         of["cpu_s"] += s.get("cpu_s") or 0
         if s.get("margin_cm") is not None:
@@ -264,7 +349,13 @@ class LargePage:
         for girth, percent in s.get("ease_percent", {}).items():
             if not girth.endswith("_r"):
                 of["ease"].setdefault(girth, array.array("f")).append(percent)
-        self.row(name, row_html(s).replace(f'data-key="{s["key"]}">', f'data-v="{s["cpu_s"]}">{s["cpu_s"]:.1f}' if s.get("cpu_s") is not None else ">"))
+        self.row(
+            name,
+            row_html(s).replace(
+                f'data-key="{s["key"]}">',
+                f'data-v="{s["cpu_s"]}">{s["cpu_s"]:.1f}' if s.get("cpu_s") is not None else ">",
+            ),
+        )
         if s["size"]:
             if s["scan"] != self.scan:
                 self.end_scan()
@@ -290,7 +381,9 @@ class LargePage:
         index, parts = self.files.setdefault(table, (len(self.files), []))
         name = f"{index}.{len(parts)}.js"
         parts.append(len(self.rows[table]))
-        planning.write_text(os.path.join(self.folder, name), f"rows({json.dumps(''.join(self.rows[table]))})\n")
+        planning.write_text(
+            os.path.join(self.folder, name), f"rows({json.dumps(''.join(self.rows[table]))})\n"
+        )
         self.rows[table] = []
 
     def table_html(self, table):
@@ -304,9 +397,16 @@ class LargePage:
         text = "<h2>Garments</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>cells<th>dressed %<th>refused %<th>failed %<th>margin cm: 10 %<th>half<th>90 %<th>CPU s, mean<th>cells</tr></thead><tbody>\n"
         for name, of in sorted(self.of.items()):
             n = sum(of["causes"].values())
-            shares = [100 * sum(k for c, k in of["causes"].items() if css_class(c) == kind) / n for kind in ("ok", "no", "bad")]
-            text += (f"<tr><td>{html.escape(name)}<td class=n>{n}" + "".join(f"<td class=n>{v:.1f}" for v in shares)
-                     + "".join(f"<td class=n>{v}" for v in quantiles(of["margin"], "{:.1f}")) + f"<td class=n>{of['cpu_s'] / n:.1f}<td>{self.table_html(name)}</tr>\n")
+            shares = [
+                100 * sum(k for c, k in of["causes"].items() if css_class(c) == kind) / n
+                for kind in ("ok", "no", "bad")
+            ]
+            text += (
+                f"<tr><td>{html.escape(name)}<td class=n>{n}"
+                + "".join(f"<td class=n>{v:.1f}" for v in shares)
+                + "".join(f"<td class=n>{v}" for v in quantiles(of["margin"], "{:.1f}"))
+                + f"<td class=n>{of['cpu_s'] / n:.1f}<td>{self.table_html(name)}</tr>\n"
+            )
         text += "</tbody></table></div>\n<div id=rows></div>\n"
         if self.sizes:
             text += "<h2>Best size</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scans<th>%<th>scans</tr></thead><tbody>\n"
@@ -318,12 +418,28 @@ class LargePage:
         text += "<h2>Ease in % of the girth: 10 %, half and 90 % of the scans</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>girth<th>scans<th>10 %<th>half<th>90 %</tr></thead><tbody>\n"
         for name, of in sorted(self.of.items()):
             for girth, values in sorted(of["ease"].items()):
-                text += (f"<tr><td>{html.escape(name)}<td>{html.escape(girth.replace('_', ' '))}<td class=n>{len(values)}"
-                         + "".join(f'<td class=n style="background:{heat_colour(float(v))}">{v}' for v in quantiles(values, "{:.0f}")) + "</tr>\n")
+                text += (
+                    f"<tr><td>{html.escape(name)}<td>{html.escape(girth.replace('_', ' '))}<td class=n>{len(values)}"
+                    + "".join(
+                        f'<td class=n style="background:{heat_colour(float(v))}">{v}'
+                        for v in quantiles(values, "{:.0f}")
+                    )
+                    + "</tr>\n"
+                )
         worst = sorted((w.status for w in self.worst), key=badness)
-        text += f"</tbody></table></div>\n<h2>The worst {len(worst)} cells</h2>" + CELLS_HEAD + "".join(map(row_html, worst)) + "</tbody></table></div>\n"
+        text += (
+            f"</tbody></table></div>\n<h2>The worst {len(worst)} cells</h2>"
+            + CELLS_HEAD
+            + "".join(map(row_html, worst))
+            + "</tbody></table></div>\n"
+        )
         timings = json.dumps({s["key"]: s["cpu_s"] for s in worst if s.get("cpu_s") is not None})
-        return text + pictures_html(self.plan.out, worst[:PICTURES]) + f"<script>window.TIMINGS={timings}</script>\n" + ON_DEMAND
+        return (
+            text
+            + pictures_html(self.plan.out, worst[:PICTURES])
+            + f"<script>window.TIMINGS={timings}</script>\n"
+            + ON_DEMAND
+        )
 
 
 ON_DEMAND = """<script>
@@ -348,7 +464,8 @@ def quantiles(values, shape):
 
 
 def summarise(plan):
-    """Reads what each cell says, once; writes manifest.json, population.html, timings.csv and timings.js. Returns (figures, count of missing cells)."""
+    """Reads what each cell says, once; writes manifest.json, population.html, timings.csv and
+    timings.js. Returns (figures, count of missing cells)."""
     out = plan.out
     small = plan.cell_count <= SMALL
     totals, page = Totals(plan), (SmallPage if small else LargePage)(plan)
@@ -366,7 +483,9 @@ def summarise(plan):
             try:
                 t = planning.read_json(os.path.join(out, "timings", status["place"], "timing.json"))
                 status["cpu_s"] = t["cpu_s"]
-                file.write(f'"{t["name"]}",{t["cause"]},{t["cpu_s"]},{t["wall_s"]},{t["peak_mb"]},{t["steps"] or ""},{t["host"]}\n')
+                file.write(
+                    f'"{t["name"]}",{t["cause"]},{t["cpu_s"]},{t["wall_s"]},{t["peak_mb"]},{t["steps"] or ""},{t["host"]}\n'
+                )
                 if small:
                     seconds[status["key"]] = t["cpu_s"]
             except (OSError, ValueError):
@@ -374,9 +493,14 @@ def summarise(plan):
             totals.add(number, status)
             page.add(status)
     os.replace(temporary, csv)
-    planning.write_text(os.path.join(out, "timings.js"), "window.TIMINGS=" + json.dumps(seconds) + ";\n")
+    planning.write_text(
+        os.path.join(out, "timings.js"), "window.TIMINGS=" + json.dumps(seconds) + ";\n"
+    )
     planning.write_manifest(os.path.join(out, "manifest.json"), plan, totals.causes)
     figures = totals.figures()
     missing = plan.cell_count - figures["cells"]
-    planning.write_text(os.path.join(out, "population.html"), HEAD + figures_html(totals, figures, missing) + page.body() + SCRIPT)
+    planning.write_text(
+        os.path.join(out, "population.html"),
+        HEAD + figures_html(totals, figures, missing) + page.body() + SCRIPT,
+    )
     return figures, missing

@@ -1,15 +1,29 @@
-"""What a batch consists of: scans and garments, and a cell for each pair, with a key made from all that decides its result.
+"""What a batch consists of: scans and garments, and a cell for each pair, with a key made from all
+that decides its result.
 
-A plan does not list its cells. Cell i is garment i % G on scan i // G, and its key is computed when it is asked for, so that
-a plan of a million cells is no larger than its lists of files. OUT/plan/plan.json holds the settings and the garments;
-OUT/plan/scans.N.json holds the scans, SCANS_A_FILE in each; OUT/plan/hashes.json holds what was hashed, by file.
+A plan does not list its cells. Cell i is garment i % G on scan i // G, and its key is computed when
+it is asked for, so that a plan of a million cells is no larger than its lists of files.
+OUT/plan/plan.json holds the settings and the garments; OUT/plan/scans.N.json holds the scans,
+SCANS_A_FILE in each; OUT/plan/hashes.json holds what was hashed, by file.
 """
 import hashlib
 import json
 import os
 import subprocess
 
-SCAN_SUFFIXES = (".obj", ".ply", ".stl", ".3ds", ".xyz", ".pcd", ".glb", ".gltf", ".fbx", ".dae", ".off")
+SCAN_SUFFIXES = (
+    ".obj",
+    ".ply",
+    ".stl",
+    ".3ds",
+    ".xyz",
+    ".pcd",
+    ".glb",
+    ".gltf",
+    ".fbx",
+    ".dae",
+    ".off",
+)
 PROGRAMS = ("scan-landmarks", "retarget-garment", "render-png")
 SCANS_A_FILE = 1000
 FLAT_CELLS = 4096  # a batch of more cells than this keeps them in 256 folders
@@ -34,7 +48,8 @@ def sha256(*paths):
 
 
 class Hashes:
-    """SHA-256 of files. What a former plan of the same batch hashed is not read again while size, times and inode are the same."""
+    """SHA-256 of files. What a former plan of the same batch hashed is not read again while size,
+    times and inode are the same."""
 
     def __init__(self, path):
         self.path = path
@@ -102,9 +117,14 @@ def is_document(path, wanted):
 
 
 def listed(place, wanted):
-    """Files of a folder, or the file itself, or those that a .txt names line by line; sorted by name."""
+    """Files of a folder, or the file itself, or those that a .txt names line by line; sorted by
+    name."""
     if os.path.isdir(place):
-        found = [os.path.join(place, name) for name in sorted(os.listdir(place)) if not name.startswith(".")]
+        found = [
+            os.path.join(place, name)
+            for name in sorted(os.listdir(place))
+            if not name.startswith(".")
+        ]
         return [path for path in found if wanted(path)]
     if place.endswith(".txt"):
         try:
@@ -124,7 +144,10 @@ def find_garments(place, worn_by=None):
     beside = set(os.listdir(place)) if os.path.isdir(place) else set()
 
     def wanted(path):
-        alone = path.lower().endswith(MESH_SUFFIXES) and os.path.splitext(os.path.basename(path))[0] + ".json" not in beside
+        alone = (
+            path.lower().endswith(MESH_SUFFIXES)
+            and os.path.splitext(os.path.basename(path))[0] + ".json" not in beside
+        )
         return is_document(path, "garment") or (alone and worn_by is not None)
 
     garments = listed(place, wanted)
@@ -132,7 +155,9 @@ def find_garments(place, worn_by=None):
     if meshes and not worn_by:
         raise Mistake(f"{meshes[0]}: a mesh does not say who wears it; say --from BODY")
     if not garments:
-        raise Mistake(f"{place}: no garment document in it; drape one first, or say --from BODY where they are meshes")
+        raise Mistake(
+            f"{place}: no garment document in it; drape one first, or say --from BODY where they are meshes"
+        )
     return garments
 
 
@@ -143,7 +168,10 @@ def find_scans(place):
         if is_document(path, "body"):
             return True
         # The .obj beside a document belongs to it.
-        return path.lower().endswith(SCAN_SUFFIXES) and os.path.splitext(os.path.basename(path))[0] + ".json" not in beside
+        return (
+            path.lower().endswith(SCAN_SUFFIXES)
+            and os.path.splitext(os.path.basename(path))[0] + ".json" not in beside
+        )
 
     scans = listed(place, wanted)
     if not scans:
@@ -166,7 +194,9 @@ def programs(folder):
         path = os.path.join(folder, name)
         if not os.access(path, os.X_OK):
             raise Mistake(f"{path}: no such program; say --bin FOLDER", 2)
-        version = subprocess.run([path, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
+        version = subprocess.run(
+            [path, "--version"], capture_output=True, text=True, check=True
+        ).stdout.splitlines()[0]
         found[name] = {"path": os.path.abspath(path), "version": version, "sha256": sha256(path)}
     return found
 
@@ -188,7 +218,9 @@ def refuse_twice(kind, paths):
     for path in paths:
         other = seen.setdefault(stem(path), path)
         if other is not path:
-            raise Mistake(f"two {kind} are called {stem(path)}: {other} and {path}; rename one, since cells are named after them")
+            raise Mistake(
+                f"two {kind} are called {stem(path)}: {other} and {path}; rename one, since cells are named after them"
+            )
 
 
 def ranges_of(numbers):
@@ -203,7 +235,8 @@ def ranges_of(numbers):
 
 
 class Plan:
-    """A batch in OUT. Cells are numbered scan by scan: those of one scan stand beside one another."""
+    """A batch in OUT. Cells are numbered scan by scan: those of one scan stand beside one
+    another."""
 
     def __init__(self, out, document, scans=None):
         self.out = out
@@ -214,12 +247,27 @@ class Plan:
         self.cache = document["cache"]
         self.skins = document["skins"]
         self.sharded = document["sharded"]
-        self.loaded = {} if scans is None else dict(enumerate(scans[i:i + SCANS_A_FILE] for i in range(0, len(scans), SCANS_A_FILE)))
+        self.loaded = (
+            {}
+            if scans is None
+            else dict(
+                enumerate(scans[i : i + SCANS_A_FILE] for i in range(0, len(scans), SCANS_A_FILE))
+            )
+        )
         self.keeps_all = scans is not None
         tools = self.programs
-        self.base = key_of({"programs": [tools[p]["sha256"] for p in ("retarget-garment", "render-png")],
-                            "settings": {k: self.settings[k] for k in ("mode", "accuracy", "set", "pictures")}, "policy": document["policy_sha256"],
-                            **({"from": document["from_sha256"], "fabric": self.settings["fabric"]} if document.get("from_sha256") else {})})
+        self.base = key_of(
+            {
+                "programs": [tools[p]["sha256"] for p in ("retarget-garment", "render-png")],
+                "settings": {k: self.settings[k] for k in ("mode", "accuracy", "set", "pictures")},
+                "policy": document["policy_sha256"],
+                **(
+                    {"from": document["from_sha256"], "fabric": self.settings["fabric"]}
+                    if document.get("from_sha256")
+                    else {}
+                ),
+            }
+        )
 
     @property
     def cell_count(self):
@@ -243,8 +291,18 @@ class Plan:
     def cell(self, number):
         scan, garment = divmod(number, len(self.garments))
         scan, garment = self.scan(scan), self.garments[garment]
-        return {"number": number, "key": self.key(number), "name": f"{garment['stem']} on {scan['name']}", "garment": garment["name"], "size": garment["size"],
-                "garment_file": garment["file"], "sizes": garment.get("sizes", []), "garment_sha256": garment["sha256"], "scan": scan["name"], "body": scan["key"]}
+        return {
+            "number": number,
+            "key": self.key(number),
+            "name": f"{garment['stem']} on {scan['name']}",
+            "garment": garment["name"],
+            "size": garment["size"],
+            "garment_file": garment["file"],
+            "sizes": garment.get("sizes", []),
+            "garment_sha256": garment["sha256"],
+            "scan": scan["name"],
+            "body": scan["key"],
+        }
 
     def place(self, key):
         """The folder of a cell, below OUT/cells; also that of its times, below OUT/timings."""
@@ -262,38 +320,66 @@ class Plan:
         root = os.path.join(self.out, "cells")
         if not os.path.isdir(root):
             return set()
-        return {key for part in (os.listdir(root) if self.sharded else ["."]) for key in os.listdir(os.path.join(root, part))}
+        return {
+            key
+            for part in (os.listdir(root) if self.sharded else ["."])
+            for key in os.listdir(os.path.join(root, part))
+        }
 
     def missing(self):
-        """The cells that are not there yet, as [first, last) ranges of their numbers in ascending order."""
+        """The cells that are not there yet, as [first, last) ranges of their numbers in ascending
+        order."""
         made = self.made_keys()
-        return ranges_of(number for number in range(self.cell_count) if self.key(number) not in made) if made else [[0, self.cell_count]]
+        return (
+            ranges_of(number for number in range(self.cell_count) if self.key(number) not in made)
+            if made
+            else [[0, self.cell_count]]
+        )
 
     def slices(self):
-        """Targets of batch.mk: {"bodies": [(first, last)], "cells": [(first, last, index of its bodies)]}, last excluded. Few cells: one in each."""
+        """Targets of batch.mk: {"bodies": [(first, last)], "cells": [(first, last, index of its
+        bodies)]}, last excluded. Few cells: one in each."""
         garments = len(self.garments)
         scans_each = -(-self.scan_count // SLICES)
         cells_each = -(-self.cell_count // SLICES)
         bodies, cells = [], []
         for first in range(0, self.scan_count, scans_each):
             last = min(first + scans_each, self.scan_count)
-            cells += [(i, min(i + cells_each, last * garments), len(bodies)) for i in range(first * garments, last * garments, cells_each)]
+            cells += [
+                (i, min(i + cells_each, last * garments), len(bodies))
+                for i in range(first * garments, last * garments, cells_each)
+            ]
             bodies.append((first, last))
         return {"bodies": bodies, "cells": cells}
 
 
 def by_nearest_size(worn, hashes):
-    """Garments of which all sizes beside them are one: the program takes the size whose own body is nearest. Its key is of all sizes."""
+    """Garments of which all sizes beside them are one: the program takes the size whose own body is
+    nearest. Its key is of all sizes."""
     grouped = []
     for garment in worn:
         folder = os.path.dirname(garment["file"])
         if not garment["size"]:
             grouped.append(garment)
-        elif all(other["name"] != garment["name"] or os.path.dirname(other["file"]) != folder for other in grouped):
-            sizes = sorted(os.path.join(folder, name) for name in os.listdir(folder) if name.startswith(garment["name"] + "@") and is_document(os.path.join(folder, name), "garment"))
-            digest = hashlib.sha256("\n".join(f"{stem(path)} {hashes.of(*checked(path))}" for path in sizes).encode()).hexdigest()
-            grouped.append({**garment, "stem": garment["name"], "size": "", "sha256": digest, "sizes": sizes})
-    refuse_twice("garments", [os.path.join(os.path.dirname(g["file"]), g["stem"] + ".json") for g in grouped])
+        elif all(
+            other["name"] != garment["name"] or os.path.dirname(other["file"]) != folder
+            for other in grouped
+        ):
+            sizes = sorted(
+                os.path.join(folder, name)
+                for name in os.listdir(folder)
+                if name.startswith(garment["name"] + "@")
+                and is_document(os.path.join(folder, name), "garment")
+            )
+            digest = hashlib.sha256(
+                "\n".join(f"{stem(path)} {hashes.of(*checked(path))}" for path in sizes).encode()
+            ).hexdigest()
+            grouped.append(
+                {**garment, "stem": garment["name"], "size": "", "sha256": digest, "sizes": sizes}
+            )
+    refuse_twice(
+        "garments", [os.path.join(os.path.dirname(g["file"]), g["stem"] + ".json") for g in grouped]
+    )
     return grouped
 
 
@@ -302,24 +388,44 @@ def load(out):
 
 
 def make_plan(out, garments, scans, settings, tools, cache=None):
-    """settings: mode, accuracy, set, policy (path or None), timeout_s, pictures, unit, up. Writes OUT/plan and returns the plan."""
+    """settings: mode, accuracy, set, policy (path or None), timeout_s, pictures, unit, up. Writes
+    OUT/plan and returns the plan."""
     folder = os.path.join(out, "plan")
     refuse_twice("garments", garments)
     refuse_twice("scans", scans)
     files = {path: checked(path) for path in garments + scans}
     os.makedirs(folder, exist_ok=True)
     hashes = Hashes(os.path.join(folder, "hashes.json"))
-    how = {"program": tools["scan-landmarks"]["sha256"], "unit": settings["unit"], "up": settings["up"]}
+    how = {
+        "program": tools["scan-landmarks"]["sha256"],
+        "unit": settings["unit"],
+        "up": settings["up"],
+    }
     described = []
     for path in scans:
         digest = hashes.of(*files[path])
         is_body = path.endswith(".json")
-        described.append({"scan": os.path.abspath(path), "name": stem(path), "sha256": digest, "is_body": is_body,
-                          "key": key_of({"scan": digest, "is_body": is_body, **how})})
+        described.append(
+            {
+                "scan": os.path.abspath(path),
+                "name": stem(path),
+                "sha256": digest,
+                "is_body": is_body,
+                "key": key_of({"scan": digest, "is_body": is_body, **how}),
+            }
+        )
     worn = []
     for path in garments:
         name, _, size = stem(path).partition("@")
-        worn.append({"file": os.path.abspath(path), "stem": stem(path), "name": name, "size": size, "sha256": hashes.of(*files[path])})
+        worn.append(
+            {
+                "file": os.path.abspath(path),
+                "stem": stem(path),
+                "name": name,
+                "size": size,
+                "sha256": hashes.of(*files[path]),
+            }
+        )
     if settings.get("nearest_size"):
         worn = by_nearest_size(worn, hashes)
     hashes.save()
@@ -327,17 +433,30 @@ def make_plan(out, garments, scans, settings, tools, cache=None):
         sharded = read_json(os.path.join(folder, "plan.json"))["sharded"]
     except (OSError, ValueError, KeyError):
         sharded = len(worn) * len(described) > FLAT_CELLS
-    document = {"settings": settings, "programs": tools, "garments": worn, "scans": len(described), "sharded": sharded, "cache": cache or os.path.join(out, "bodies"),
-                "skins": os.path.join(cache or out, "skins"), "policy_sha256": sha256(settings["policy"]) if settings["policy"] else None,
-                "from_sha256": sha256(*checked(settings["from"])) if settings.get("from") else None}
+    document = {
+        "settings": settings,
+        "programs": tools,
+        "garments": worn,
+        "scans": len(described),
+        "sharded": sharded,
+        "cache": cache or os.path.join(out, "bodies"),
+        "skins": os.path.join(cache or out, "skins"),
+        "policy_sha256": sha256(settings["policy"]) if settings["policy"] else None,
+        "from_sha256": sha256(*checked(settings["from"])) if settings.get("from") else None,
+    }
     for part in range(0, len(described), SCANS_A_FILE):
-        write_json(os.path.join(folder, f"scans.{part // SCANS_A_FILE}.json"), described[part:part + SCANS_A_FILE], indent=None)
+        write_json(
+            os.path.join(folder, f"scans.{part // SCANS_A_FILE}.json"),
+            described[part : part + SCANS_A_FILE],
+            indent=None,
+        )
     write_json(os.path.join(folder, "plan.json"), document)
     return Plan(out, document, described)
 
 
 def write_manifest(path, plan, causes):
-    """What was made from what; no times, hosts or absolute paths, so that equal batches have equal manifests. Written cell by cell.
+    """What was made from what; no times, hosts or absolute paths, so that equal batches have equal
+    manifests. Written cell by cell.
 
     causes: the cause of cell i, or None where it is missing."""
     shown = dict(plan.settings)
@@ -345,12 +464,26 @@ def write_manifest(path, plan, causes):
         shown[key] = os.path.basename(shown[key]) if shown.get(key) else None
     scans = [plan.scan(i) for i in range(plan.scan_count)]
     head = {
-        "format": "batch", "version": 1, "settings": shown,
-        "programs": {name: {"version": t["version"], "sha256": t["sha256"]} for name, t in plan.programs.items()},
-        "bodies": {s["key"]: {"name": s["name"], "file": os.path.basename(s["scan"]), "sha256": s["sha256"]} for s in reversed(scans)},
+        "format": "batch",
+        "version": 1,
+        "settings": shown,
+        "programs": {
+            name: {"version": t["version"], "sha256": t["sha256"]}
+            for name, t in plan.programs.items()
+        },
+        "bodies": {
+            s["key"]: {
+                "name": s["name"],
+                "file": os.path.basename(s["scan"]),
+                "sha256": s["sha256"],
+            }
+            for s in reversed(scans)
+        },
     }
     if plan.sharded:
-        head["sharded"] = True  # a cell stands in cells/KE/KEY, with the first two letters of its key
+        head[
+            "sharded"
+        ] = True  # a cell stands in cells/KE/KEY, with the first two letters of its key
     by_name = sorted(range(len(scans)), key=lambda i: scans[i]["name"])
     temporary = f"{path}.{os.getpid()}.tmp"
     first, last = json.dumps(head, indent=1, sort_keys=True).split('"format": "batch"')
@@ -360,8 +493,16 @@ def write_manifest(path, plan, causes):
         for number in sorted(range(len(plan.garments)), key=lambda i: plan.garments[i]["stem"]):
             for scan in by_name:
                 c = plan.cell(scan * len(plan.garments) + number)
-                line = {"name": c["name"], "garment": c["garment"], "size": c["size"], "scan": c["scan"], "key": c["key"], "body": c["body"],
-                        "garment_sha256": c["garment_sha256"], "status": causes[c["number"]] or "missing"}
+                line = {
+                    "name": c["name"],
+                    "garment": c["garment"],
+                    "size": c["size"],
+                    "scan": c["scan"],
+                    "key": c["key"],
+                    "body": c["body"],
+                    "garment_sha256": c["garment_sha256"],
+                    "status": causes[c["number"]] or "missing",
+                }
                 file.write(between + json.dumps(line, sort_keys=True))
                 between = ",\n"
         file.write('\n ],\n "format": "batch"' + last + "\n")

@@ -19,10 +19,12 @@ TEST_P(Parallel, visits_every_item_once_for_any_grain) {
     for (const std::size_t grain : {1u, 3u, 1000u, 5000u}) {
       std::vector<int> visits(n, 0);
       parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+        for (std::size_t i = begin; i < end; ++i)
+          ++visits[i];
       });
       EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), std::size_t{0}), n);
-      for (const int v : visits) ASSERT_EQ(v, 1);
+      for (const int v : visits)
+        ASSERT_EQ(v, 1);
     }
 }
 
@@ -47,9 +49,11 @@ TEST_P(Parallel, sums_to_the_same_bits_for_any_number_of_threads) {
 }
 
 TEST_P(Parallel, passes_on_the_exception_of_the_lowest_chunk) {
-  for (int repeat = 0; repeat < 20; ++repeat) try {
+  for (int repeat = 0; repeat < 20; ++repeat)
+    try {
       parallel_for(100, 1, [](std::size_t begin, std::size_t) {
-        if (begin % 10 == 3) throw std::runtime_error(std::to_string(begin));
+        if (begin % 10 == 3)
+          throw std::runtime_error(std::to_string(begin));
       });
       FAIL() << "no exception came through";
     } catch (const std::runtime_error& e) {

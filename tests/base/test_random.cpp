@@ -25,4 +25,6 @@ TEST(Random, stays_within_its_range_and_fills_it) {
   EXPECT_NEAR(high, 1000, 150);
 }
 
-TEST(Random, differs_by_seed) { EXPECT_NE(Random(1).next(), Random(2).next()); }
+TEST(Random, differs_by_seed) {
+  EXPECT_NE(Random(1).next(), Random(2).next());
+}

@@ -33,7 +33,8 @@ template<class Work> double report(const char* name, int runs, const Work& work)
 } // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 2) set_thread_count(std::atoi(argv[2]));
+  if (argc > 2)
+    set_thread_count(std::atoi(argv[2]));
   TriangleMesh body;
   if (argc > 1 && argv[1][0] != '-') {
     const io::ObjMesh obj = io::read_obj(argv[1]);
@@ -75,7 +76,8 @@ int main(int argc, char** argv) {
     });
   };
   report("body: signed distance of all particles, reach 2 cm", 10, [&] { query(0.02, false); });
-  for (std::size_t v = 0; v < hints.size(); ++v) hints[v] = distances[v].triangle;
+  for (std::size_t v = 0; v < hints.size(); ++v)
+    hints[v] = distances[v].triangle;
   report("body: signed distance, reach 2 cm, hinted", 10, [&] { query(0.02, true); });
   report("body: signed distance, reach unbounded", 10, [&] { query(1e9, false); });
   report("body: winding number of all particles", 2, [&] {

@@ -74,7 +74,8 @@ Quality measure(const ClothMesh& mesh, const std::vector<Vec3>& x,
   if (body) {
     q.through = body->faces_through(x, triangles).size();
     for (const Vec3& p : x) {
-      if (!body->is_inside(p)) continue;
+      if (!body->is_inside(p))
+        continue;
       ++q.inside;
       q.deepest_m = std::max(q.deepest_m, -body->signed_distance(p, 1).distance);
     }
@@ -90,7 +91,8 @@ Quality measure(const ClothMesh& mesh, const std::vector<Vec3>& x,
 std::vector<Vec3> start_of(std::vector<Vec3> x, int seed) {
   Random random(static_cast<std::uint64_t>(seed));
   for (Vec3& p : x)
-    for (double& c : p) c += seed > 0 ? random.uniform(-0.5e-6, 0.5e-6) : 0;
+    for (double& c : p)
+      c += seed > 0 ? random.uniform(-0.5e-6, 0.5e-6) : 0;
   return x;
 }
 
@@ -109,8 +111,10 @@ double run(const std::string& folder, const std::string& name, bool self, bool t
   const auto g = scene.at("gravity").get<std::array<double, 3>>();
   solver.emplace<GravityEffect>(mesh, Vec3(g[0], g[1], g[2]));
   std::vector<Pin> pins;
-  for (int p : scene.at("pins")) pins.push_back({p, start.positions[p]});
-  if (!pins.empty()) solver.emplace<PinsEffect>(pins);
+  for (int p : scene.at("pins"))
+    pins.push_back({p, start.positions[p]});
+  if (!pins.empty())
+    solver.emplace<PinsEffect>(pins);
   std::optional<collision::BodyCollider> body;
   BodyContactEffect* body_contact = nullptr;
   for (const std::string collider : scene.at("colliders")) {
@@ -168,7 +172,8 @@ double run(const std::string& folder, const std::string& name, bool self, bool t
             "%5ld h %8.4f CG %3d halvings %d move %9.3g mm, residual %9.4f %9.4f held %zu\n", steps,
             options.h, last.cg.iterations, last.halvings, 1e3 * last.largest_move_m,
             last.residual_force_ratio, last.residual_force_ratio_max, last.held);
-      if (last.residual_force_ratio_max < target) break;
+      if (last.residual_force_ratio_max < target)
+        break;
       options.h =
           last.halvings > 0 ? std::max(0.7 * options.h, 0.01) : std::min(1.3 * options.h, 1e3);
     }
@@ -188,13 +193,15 @@ double run(const std::string& folder, const std::string& name, bool self, bool t
   if (std::getenv("SLOPER_BENCH_SPLIT")) {
     std::printf("    assembly %.3f solve %.3f limits %.3f search %.3f s;", solver.assembly_s,
                 solver.solve_s, solver.contact_s, solver.search_s);
-    for (const auto& e : solver.effects()) std::printf(" %s %.3f", e->name(), e->wall_s);
+    for (const auto& e : solver.effects())
+      std::printf(" %s %.3f", e->name(), e->wall_s);
     std::printf("; searches body %ld self %ld\n", body_contact ? body_contact->searches : 0,
                 self_contact ? self_contact->searches : 0);
   }
   if (const char* out = std::getenv("SLOPER_BENCH_OUT")) {
     FILE* file = std::fopen((std::string(out) + "/" + label + ".obj").c_str(), "w");
-    for (const Vec3& p : solver.x()) std::fprintf(file, "v %.6f %.6f %.6f\n", p.x(), p.y(), p.z());
+    for (const Vec3& p : solver.x())
+      std::fprintf(file, "v %.6f %.6f %.6f\n", p.x(), p.y(), p.z());
     for (const Triangle& t : start.triangles)
       std::fprintf(file, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
     std::fclose(file);

@@ -43,8 +43,10 @@ TEST(BodyDocument, comes_back_as_it_was_written) {
   }
   EXPECT_EQ(read.skin.triangles.size(), written.skin.triangles.size());
   std::map<Part, int> before, after;
-  for (Part part : written.face_part) ++before[part];
-  for (Part part : read.face_part) ++after[part];
+  for (Part part : written.face_part)
+    ++before[part];
+  for (Part part : read.face_part)
+    ++after[part];
   EXPECT_EQ(before, after);
   EXPECT_EQ(read.bones.size(), written.bones.size());
   EXPECT_EQ(read.levels.size(), written.levels.size());

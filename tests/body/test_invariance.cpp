@@ -41,7 +41,8 @@ const std::vector<Figure>& figures() {
 const Body& as_it_is(const Figure& figure) {
   static std::map<std::string, Body> made;
   auto it = made.find(figure.name);
-  if (it == made.end()) it = made.emplace(figure.name, measure(figure.mesh).body).first;
+  if (it == made.end())
+    it = made.emplace(figure.name, measure(figure.mesh).body).first;
   return it->second;
 }
 

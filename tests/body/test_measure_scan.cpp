@@ -16,10 +16,12 @@ std::pair<double, std::string> largest_change(const Body& before, const Body& af
                                               double scale) {
   std::pair<double, std::string> worst{0, ""};
   for (const auto& [name, landmark] : before.landmarks) {
-    if (!after.has_landmark(name)) return {1e9, name + " is missing"};
+    if (!after.has_landmark(name))
+      return {1e9, name + " is missing"};
     const double d =
         (linear * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm() / scale;
-    if (d > worst.first) worst = {d, name};
+    if (d > worst.first)
+      worst = {d, name};
   }
   return worst;
 }
@@ -36,7 +38,7 @@ void expect_refused(const TriangleMesh& scan, const std::string& reason) {
 }
 
 void add_box(TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
-  const int first = static_cast<int>(mesh.positions.size());
+  const int first = std::ssize(mesh.positions);
   for (int k = 0; k < 8; ++k)
     mesh.positions.emplace_back(k & 1 ? high.x() : low.x(), k & 2 ? high.y() : low.y(),
                                 k & 4 ? high.z() : low.z());
@@ -103,8 +105,10 @@ TEST(MeasureScan, finds_a_mannequins_points_where_they_were_built) {
       const auto& truth = made.truth["landmarks"][landmark]["p"];
       ASSERT_TRUE(measured.body.has_landmark(landmark)) << name << " " << landmark;
       Vec3 d = test::in_scan(measured.body, landmark) - Vec3(truth[0], truth[1], truth[2]);
-      if (landmark == "head_tip") d = Vec3(0, d.y(), 0);
-      if (landmark == "buttock_back") d.x() = 0;
+      if (landmark == "head_tip")
+        d = Vec3(0, d.y(), 0);
+      if (landmark == "buttock_back")
+        d.x() = 0;
       EXPECT_LT(d.norm(), bound) << name << " " << landmark;
     }
   }
@@ -186,7 +190,8 @@ TEST(MeasureScan, never_swaps_left_and_right) {
                                           test::turn_about_y(degrees), Vec3::Zero()))
                           .body;
     for (const auto& [name, landmark] : body.landmarks) {
-      if (name.size() < 3 || name.substr(name.size() - 2) != "_l") continue;
+      if (name.size() < 3 || name.substr(name.size() - 2) != "_l")
+        continue;
       EXPECT_GT(landmark.p.x(), 0) << name;
       EXPECT_LT(body.landmark(name.substr(0, name.size() - 2) + "_r").x(), 0) << name;
     }
@@ -201,7 +206,8 @@ TEST(MeasureScan, the_frame_is_the_documents_frame) {
   EXPECT_NEAR(body.landmark("hip_center").x(), 0, 1e-9);
   EXPECT_NEAR(body.landmark("hip_center").z(), 0, 1e-9);
   double low = 1e9;
-  for (const Vec3& p : body.skin.positions) low = std::min(low, p.y());
+  for (const Vec3& p : body.skin.positions)
+    low = std::min(low, p.y());
   EXPECT_NEAR(low, 0, 0.003);
   const Eigen::Matrix3d rotation = body.scan_to_body.block<3, 3>(0, 0);
   EXPECT_NEAR(rotation.determinant(), 1, 1e-9);
@@ -211,7 +217,7 @@ TEST(MeasureScan, floor_pole_and_debris_are_no_body) {
   TriangleMesh scan = test::mannequin("f-165-a").mesh;
   const std::size_t n_body = scan.positions.size();
   Random random(11);
-  const int first = static_cast<int>(scan.positions.size());
+  const int first = std::ssize(scan.positions);
   constexpr int N = 90;
   for (int i = 0; i <= N; ++i)
     for (int j = 0; j <= N; ++j)
@@ -236,8 +242,10 @@ TEST(MeasureScan, floor_pole_and_debris_are_no_body) {
   int lost = 0, taken = 0;
   for (std::size_t v = 0; v < scan.positions.size(); ++v) {
     const bool none = measured.vertex_part[v] == Part::NONE;
-    if (v < n_body) lost += none;
-    else taken += !none;
+    if (v < n_body)
+      lost += none;
+    else
+      taken += !none;
   }
   EXPECT_LT(lost, 0.02 * static_cast<double>(n_body));
   EXPECT_LT(taken, 0.02 * static_cast<double>(scan.positions.size() - n_body));
@@ -284,7 +292,7 @@ TEST(MeasureScan, a_thin_cloud_strewn_at_random_is_one_person_with_fingers) {
       const auto at =
           std::upper_bound(area.begin(), area.end() - 1, random.uniform() * area.back()) -
           area.begin() - 1;
-      const Triangle& t = mesh.triangles[static_cast<std::size_t>(at)];
+      const Triangle& t = mesh.triangles[at];
       double u = random.uniform(), v = random.uniform();
       if (u + v > 1) {
         u = 1 - u;
@@ -312,7 +320,8 @@ TEST(MeasureScan, what_is_no_standing_person_is_refused) {
   expect_refused(cube, "no standing person");
   TriangleMesh chair;
   for (const double x : {0.0, 0.4})
-    for (const double z : {0.0, 0.4}) add_box(chair, Vec3(x, 0, z), Vec3(x + 0.04, 0.45, z + 0.04));
+    for (const double z : {0.0, 0.4})
+      add_box(chair, Vec3(x, 0, z), Vec3(x + 0.04, 0.45, z + 0.04));
   add_box(chair, Vec3(0, 0.45, 0), Vec3(0.44, 0.5, 0.44));
   add_box(chair, Vec3(0, 0.5, 0), Vec3(0.44, 1.0, 0.05));
   expect_refused(chair, "no standing person");
@@ -338,7 +347,7 @@ TEST(MeasureScan, two_people_are_refused) {
   TriangleMesh two = test::mannequin("f-165-a").mesh;
   const TriangleMesh other =
       test::moved(test::mannequin("m-178-a").mesh, Eigen::Matrix3d::Identity(), Vec3(1.8, 0, 0));
-  const int shift = static_cast<int>(two.positions.size());
+  const int shift = std::ssize(two.positions);
   two.positions.insert(two.positions.end(), other.positions.begin(), other.positions.end());
   for (const Triangle& t : other.triangles)
     two.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
@@ -366,7 +375,8 @@ TEST(MeasureScan, an_arm_that_touches_the_trunk_hides_the_pit_and_the_waist) {
   for (const char* name : {"waist_width_min", "waist_girth_min"})
     EXPECT_FALSE(body.levels.count(name)) << name;
   std::set<std::string> reported;
-  for (const Finding& finding : body.scan.findings) reported.insert(finding.place);
+  for (const Finding& finding : body.scan.findings)
+    reported.insert(finding.place);
   for (const char* place : {"axilla_l", "axilla_r", "waist"})
     EXPECT_TRUE(reported.count(place)) << place;
   EXPECT_TRUE(body.has_landmark("shoulder_joint_l"));
@@ -412,10 +422,12 @@ TEST(MeasureScan, a_coarse_mesh_without_a_hole_at_the_crotch_shows_it) {
     ++n[at->second];
     number.push_back(at->second);
   }
-  for (std::size_t v = 0; v < n.size(); ++v) coarse.positions[v] /= n[v];
+  for (std::size_t v = 0; v < n.size(); ++v)
+    coarse.positions[v] /= n[v];
   for (const Triangle& t : plain.triangles) {
     const Triangle c = {number[t[0]], number[t[1]], number[t[2]]};
-    if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) coarse.triangles.push_back(c);
+    if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
+      coarse.triangles.push_back(c);
   }
   const Body before = measure(plain).body, after = measure(coarse).body;
   EXPECT_LT((test::in_scan(before, "crotch") - test::in_scan(after, "crotch")).norm(), 0.03);
@@ -444,7 +456,8 @@ TEST(MeasureScan, the_abdomen_lies_above_the_groin) {
   const double height = crotch.y() + 0.045;
   double front = -1e300;
   for (const Vec3& p : mesh.positions)
-    if (std::abs(p.y() - height) < 0.01 && std::abs(p.x()) < 0.03) front = std::max(front, p.z());
+    if (std::abs(p.y() - height) < 0.01 && std::abs(p.x()) < 0.03)
+      front = std::max(front, p.z());
   for (Vec3& p : mesh.positions)
     if (p.z() >= front - 0.07)
       p.z() +=

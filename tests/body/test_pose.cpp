@@ -85,7 +85,8 @@ std::string frame(const std::string& root, double left_arm_z, double right_thigh
 Vec3 direction(const Body& body, const std::map<std::string, Eigen::Isometry3d>& motion,
                const std::string& bone) {
   for (const Bone& b : body.bones)
-    if (b.name == bone) return motion.at(bone).linear() * (b.tail - b.head).normalized();
+    if (b.name == bone)
+      return motion.at(bone).linear() * (b.tail - b.head).normalized();
   return Vec3::Zero();
 }
 
@@ -110,12 +111,13 @@ TEST(Pose, weights_sum_to_one_and_never_jump_along_an_edge) {
   auto share_of = [&](int v, int joint) {
     double sum = 0;
     for (int k = 0; k < SkinWeights::MOST; ++k)
-      if (weights().joint[v][k] == joint) sum += weights().share[v][k];
+      if (weights().joint[v][k] == joint)
+        sum += weights().share[v][k];
     return sum;
   };
   for (const auto& e : edges_of(figure().skin.triangles)) {
     const double length = (figure().skin.positions[e[0]] - figure().skin.positions[e[1]]).norm();
-    for (int j = 0; j < static_cast<int>(weights().joints.size()); ++j)
+    for (int j = 0; j < std::ssize(weights().joints); ++j)
       steepest = std::max(steepest, std::abs(share_of(e[0], j) - share_of(e[1], j)) /
                                         std::max(length, 0.005));
   }
@@ -130,7 +132,8 @@ TEST(Pose, bones_keep_their_length_and_landmarks_go_with_them) {
                 (figure().bones[b].tail - figure().bones[b].head).norm(), 1e-12)
         << posed.bones[b].name;
   for (const Bone& b : posed.bones) {
-    if (b.name != "thigh_l") continue;
+    if (b.name != "thigh_l")
+      continue;
     EXPECT_LT((b.tail - posed.landmark("knee_l")).norm(), 1e-12);
   }
   EXPECT_NEAR(posed.arm_l_deg, 11.5, 2);

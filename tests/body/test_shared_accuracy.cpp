@@ -46,7 +46,8 @@ Errors errors_of(const std::filesystem::path& truth_file) {
   const Eigen::Matrix3d to_body = body_to_file.block<3, 3>(0, 0).inverse();
   Errors errors;
   for (const auto& [name, entry] : truth["landmarks"].items()) {
-    if (!entry.contains("p") || entry["p"].is_null() || entry.value("trust", "") == "low") continue;
+    if (!entry.contains("p") || entry["p"].is_null() || entry.value("trust", "") == "low")
+      continue;
     if (!measured.body.has_landmark(name)) {
       errors.missing += !reported_hidden(measured.body, name);
       continue;
@@ -54,7 +55,8 @@ Errors errors_of(const std::filesystem::path& truth_file) {
     const Vec3 off = to_body * (test::in_scan(measured.body, name) -
                                 Vec3(entry["p"][0], entry["p"][1], entry["p"][2]));
     double sum = 0;
-    for (const char axis : entry.value("compare", "xyz")) sum += off[axis - 'x'] * off[axis - 'x'];
+    for (const char axis : entry.value("compare", "xyz"))
+      sum += off[axis - 'x'] * off[axis - 'x'];
     errors.found.push_back(std::sqrt(sum));
   }
   return errors;
@@ -63,13 +65,16 @@ Errors errors_of(const std::filesystem::path& truth_file) {
 void expect_accuracy(const std::string& folder, double median_bound, double p95_bound,
                      int missing_bound) {
   const char* shared = std::getenv("SLOPER_SHARED");
-  if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
+  if (!shared)
+    GTEST_SKIP() << "SLOPER_SHARED is not set";
   Errors all;
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(shared) /
                                                                "data" / "bodies" / folder))
-    if (entry.path().string().ends_with(".truth.json")) files.insert(entry.path());
-  if (files.empty()) GTEST_SKIP() << "no truth in " << folder;
+    if (entry.path().string().ends_with(".truth.json"))
+      files.insert(entry.path());
+  if (files.empty())
+    GTEST_SKIP() << "no truth in " << folder;
   for (const auto& file : files) {
     const Errors one = errors_of(file);
     all.found.insert(all.found.end(), one.found.begin(), one.found.end());
@@ -83,8 +88,12 @@ void expect_accuracy(const std::string& folder, double median_bound, double p95_
 
 } // namespace
 
-TEST(SharedAccuracy, of_plain_bodies) { expect_accuracy("plain", 0.005, 0.018, 2); }
-TEST(SharedAccuracy, of_corrupted_scans) { expect_accuracy("corrupted", 0.0065, 0.024, 5); }
+TEST(SharedAccuracy, of_plain_bodies) {
+  expect_accuracy("plain", 0.005, 0.018, 2);
+}
+TEST(SharedAccuracy, of_corrupted_scans) {
+  expect_accuracy("corrupted", 0.0065, 0.024, 5);
+}
 
 /// Skin between these legs hangs lower than where they join, so that no trunk is in the first
 /// levels above the crotch.

@@ -34,10 +34,12 @@ TEST(SkinProfile, lies_on_the_skin_of_a_mannequin) {
     double sum = 0;
     int n = 0;
     for (std::size_t t = 0; t < body.skin.triangles.size(); ++t) {
-      if (body.face_part[t] != part) continue;
+      if (body.face_part[t] != part)
+        continue;
       const PartCoordinates c =
           frame.frame.coordinates(body.skin.positions[body.skin.triangles[t][0]]);
-      if (c.z < 0.2 || c.z > 0.7) continue;
+      if (c.z < 0.2 || c.z > 0.7)
+        continue;
       sum += std::abs(c.r - frame.profile.at(c.theta, c.z));
       ++n;
     }

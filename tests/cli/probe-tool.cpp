@@ -38,9 +38,12 @@ int main(int argc, char** argv) {
       throw Error(ErrorKind::USAGE, "probe.usage"_id, "", "", "these two do not go together");
     if (deed == "fail")
       throw Error(ErrorKind::FAILED, "probe.failed"_id, "", "", "did not come to rest");
-    if (deed == "memory") throw std::bad_alloc();
-    if (deed == "bug") throw std::logic_error("index 7 of 5");
-    if (deed == "no") return 1;
+    if (deed == "memory")
+      throw std::bad_alloc();
+    if (deed == "bug")
+      throw std::logic_error("index 7 of 5");
+    if (deed == "no")
+      return 1;
     if (deed == "wait") {
       for (int i = 0; i < 2000 && !tool.reporter().stop_requested(); ++i) {
         tool.reporter().progress("waiting", i / 2000.0);
@@ -52,8 +55,10 @@ int main(int argc, char** argv) {
     tool.reporter().info("an info");
     std::string text =
         "length " + std::to_string(length) + "\ncount " + std::to_string(count) + "\n";
-    for (const std::string& s : set) text += "set " + s + "\n";
-    for (const std::string& s : operands) text += "operand " + s + "\n";
+    for (const std::string& s : set)
+      text += "set " + s + "\n";
+    for (const std::string& s : operands)
+      text += "operand " + s + "\n";
     io::write_file(output, text);
     return 0;
   });

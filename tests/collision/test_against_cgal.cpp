@@ -30,7 +30,8 @@ TEST(AgainstCgal, OrientationHasOneConventionAndTheSameSigns) {
     Vec3 p[4];
     for (Vec3& v : p)
       v = i % 3 ? Vec3(shapes::grid_point(random, 5) * 0.1) : shapes::random_point(random);
-    if (i % 3 == 0 && i % 2) p[3] = p[0] + 0.3 * (p[1] - p[0]) + 0.4 * (p[2] - p[0]);
+    if (i % 3 == 0 && i % 2)
+      p[3] = p[0] + 0.3 * (p[1] - p[0]) + 0.4 * (p[2] - p[0]);
     const auto q = [&](int k) { return Kernel::Point_3(p[k].x(), p[k].y(), p[k].z()); };
     ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]),
               -static_cast<int>(CGAL::orientation(q(0), q(1), q(2), q(3))))
@@ -46,10 +47,12 @@ TEST(AgainstCgal, TrianglesOnAGridOfPointsAgree) {
     const double scale = i % 2 ? 0.1 : 1;
     const unsigned range = 2 + i % 4;
     for (Corners& c : t)
-      for (Vec3& v : c) v = shapes::grid_point(random, range) * scale;
+      for (Vec3& v : c)
+        v = shapes::grid_point(random, range) * scale;
     if (i % 5 == 0)
       for (Corners& c : t)
-        for (Vec3& v : c) v.z() = 0; // coplanar
+        for (Vec3& v : c)
+          v.z() = 0; // coplanar
     const bool expected = cgal_intersect(t[0], t[1]);
     meeting += expected;
     ASSERT_EQ(triangles_intersect(t[0], t[1]), expected) << i;
@@ -64,10 +67,12 @@ TEST(AgainstCgal, RandomAndNearlyTouchingTrianglesAgree) {
   for (int i = 0; i < 100000; ++i) {
     Corners t[2];
     for (Corners& c : t)
-      for (Vec3& v : c) v = shapes::random_point(random);
+      for (Vec3& v : c)
+        v = shapes::random_point(random);
     if (i % 4 == 1)
       t[1][0] = 0.2 * t[0][0] + 0.3 * t[0][1] + 0.5 * t[0][2]; // corner on the face, up to rounding
-    if (i % 4 == 2) t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]); // corner on an edge
+    if (i % 4 == 2)
+      t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]); // corner on an edge
     if (i % 4 == 3) {
       t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]);
       t[1][1] = t[0][2]; // and on a corner
@@ -98,8 +103,10 @@ TEST(AgainstCgal, SelfIntersectionsOfACrumpledSheetAgree) {
     for (int b = a + 1; b < n; ++b) {
       bool shared = false;
       for (int u : mesh.triangles[a])
-        for (int v : mesh.triangles[b]) shared |= u == v;
-      if (!shared && cgal_intersect(corners(a), corners(b))) expected.push_back({a, b});
+        for (int v : mesh.triangles[b])
+          shared |= u == v;
+      if (!shared && cgal_intersect(corners(a), corners(b)))
+        expected.push_back({a, b});
     }
   EXPECT_EQ(pairs, expected);
 }
@@ -118,7 +125,8 @@ TEST(AgainstCgal, FacesThroughABodyAgree) {
             cgal_intersect({cloth.positions[c[0]], cloth.positions[c[1]], cloth.positions[c[2]]},
                            {body.positions[t[0]], body.positions[t[1]], body.positions[t[2]]});
     }
-    if (hit) expected.push_back(static_cast<int>(f));
+    if (hit)
+      expected.push_back(static_cast<int>(f));
   }
   ASSERT_GT(expected.size(), 100u);
   EXPECT_EQ(BodyCollider(body).faces_through(cloth.positions, cloth.triangles), expected);

@@ -67,7 +67,8 @@ TEST(BodyCollider, TurnsFlippedFacesAndInsideOutBodies) {
   EXPECT_GT(patched.findings().flipped_triangles, 0);
   expect_sphere_distances(patched, 0.01, 43);
   TriangleMesh inverted = shapes::sphere(4);
-  for (Triangle& t : inverted.triangles) std::swap(t[0], t[1]);
+  for (Triangle& t : inverted.triangles)
+    std::swap(t[0], t[1]);
   const BodyCollider turned(inverted);
   EXPECT_EQ(turned.findings().flipped_triangles, static_cast<int>(inverted.triangles.size()));
   expect_sphere_distances(turned, 0.01, 44);
@@ -100,7 +101,7 @@ TEST(BodyCollider, SurvivesDuplicateNonManifoldAndZeroAreaFaces) {
     mesh.triangles.push_back(mesh.triangles[f]); // duplicates: non-manifold edges
   mesh.triangles.push_back({0, 0, 1});
   mesh.triangles.push_back({5, 5, 5});
-  const int fin = static_cast<int>(mesh.positions.size());
+  const int fin = std::ssize(mesh.positions);
   mesh.positions.push_back({0, 0, 1.05});
   mesh.triangles.push_back({mesh.triangles[0][0], mesh.triangles[0][1], fin});
   const BodyCollider body(mesh);
@@ -108,7 +109,8 @@ TEST(BodyCollider, SurvivesDuplicateNonManifoldAndZeroAreaFaces) {
   Random random(46);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 p = random_point(random, 1.2);
-    if (std::abs(p.norm() - 1) < 0.06) continue;
+    if (std::abs(p.norm() - 1) < 0.06)
+      continue;
     const SignedDistance d = body.signed_distance(p, FAR);
     ASSERT_TRUE(std::isfinite(d.distance));
     ASSERT_EQ(d.distance < 0, p.norm() < 1) << p.transpose();
@@ -126,7 +128,8 @@ TEST(BodyCollider, SkinBuriedInsideTheBodyIsNotItsSkin) {
   for (int i = 0; i < 3000; ++i) {
     const Vec3 p = random_point(random, 1.6);
     const double a = p.norm() - 1, b = (p - Vec3(0.9, 0.013, 0.007)).norm() - 0.6;
-    if (std::min(std::abs(a), std::abs(b)) < 0.01) continue;
+    if (std::min(std::abs(a), std::abs(b)) < 0.01)
+      continue;
     const SignedDistance d = body.signed_distance(p, FAR);
     ASSERT_EQ(d.distance < 0, a < 0 || b < 0) << p.transpose();
     if (a > 0 && b > 0) {
@@ -174,7 +177,8 @@ TEST(BodyCollider, ReachLimitsTheSearch) {
 TEST(BodyCollider, FollowsAMovedBody) {
   TriangleMesh mesh = shapes::sphere(4);
   BodyCollider body(mesh);
-  for (Vec3& p : mesh.positions) p += Vec3(5, 0, 0);
+  for (Vec3& p : mesh.positions)
+    p += Vec3(5, 0, 0);
   body.set_positions(mesh.positions);
   EXPECT_NEAR(body.signed_distance({5, 0, 1.5}, FAR).distance, 0.5, 0.01);
   EXPECT_NEAR(body.winding_number({5, 0, 0}), 1, 0.01);

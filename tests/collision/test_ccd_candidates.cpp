@@ -43,7 +43,9 @@ std::vector<Vec3> random_motion(const Sheets& s, std::uint64_t seed) {
   return dx;
 }
 
-std::vector<char> all(const Sheets& s) { return std::vector<char>(s.x.size(), 1); }
+std::vector<char> all(const Sheets& s) {
+  return std::vector<char>(s.x.size(), 1);
+}
 
 /// The least distance of the pair on the way, by trying.
 template<class Distance>
@@ -51,7 +53,8 @@ double least_on_the_way(const Sheets& s, const std::vector<Vec3>& dx, const Dist
   double least = 1e300;
   for (int k = 0; k <= 20; ++k) {
     std::vector<Vec3> x(s.x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = s.x[i] + k / 20.0 * dx[i];
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = s.x[i] + k / 20.0 * dx[i];
     least = std::min(least, distance(x));
   }
   return least;
@@ -76,17 +79,18 @@ TEST(CcdCandidates, WhatIsNotFoundStaysApart) {
   const auto enough = [](double before) {
     return 0.99 * std::min((1 - CcdCandidates::SHARE) * before, 1e-4);
   };
-  for (int v = 0; v < static_cast<int>(s.x.size()); ++v)
-    for (int f = 0; f < static_cast<int>(s.triangles.size()); ++f) {
+  for (int v = 0; v < std::ssize(s.x); ++v)
+    for (int f = 0; f < std::ssize(s.triangles); ++f) {
       const Triangle& t = s.triangles[f];
-      if (v == t[0] || v == t[1] || v == t[2] || listed(closing.vertex_face(), v, f)) continue;
+      if (v == t[0] || v == t[1] || v == t[2] || listed(closing.vertex_face(), v, f))
+        continue;
       const auto distance = [&](const std::vector<Vec3>& x) {
         return std::sqrt(point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance);
       };
       ASSERT_GE(least_on_the_way(s, dx, distance), enough(distance(s.x))) << v << " " << f;
     }
-  for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e)
-    for (int f = e + 1; f < static_cast<int>(topology.edges.size()); ++f) {
+  for (int e = 0; e < std::ssize(topology.edges); ++e)
+    for (int f = e + 1; f < std::ssize(topology.edges); ++f) {
       const auto &a = topology.edges[e], &b = topology.edges[f];
       if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1] ||
           listed(closing.edge_edge(), e, f))
@@ -113,11 +117,13 @@ void expect_those_of_marked(const CcdCandidates& some, const CcdCandidates& ever
   std::vector<std::array<int, 2>> vertex_face, edge_edge;
   for (const auto& [v, f] : every.vertex_face()) {
     const Triangle& t = s.triangles[f];
-    if (marked[v] || marked[t[0]] || marked[t[1]] || marked[t[2]]) vertex_face.push_back({v, f});
+    if (marked[v] || marked[t[0]] || marked[t[1]] || marked[t[2]])
+      vertex_face.push_back({v, f});
   }
   for (const auto& [e, f] : every.edge_edge()) {
     const auto &a = topology.edges[e], &b = topology.edges[f];
-    if (marked[a[0]] || marked[a[1]] || marked[b[0]] || marked[b[1]]) edge_edge.push_back({e, f});
+    if (marked[a[0]] || marked[a[1]] || marked[b[0]] || marked[b[1]])
+      edge_edge.push_back({e, f});
   }
   EXPECT_FALSE(vertex_face.empty());
   EXPECT_LT(edge_edge.size(), every.edge_edge().size());
@@ -149,7 +155,8 @@ TEST(CcdCandidates, FindsThePairsOfWhatIsMarked) {
   const Topology topology = make_topology(s.x.size(), s.triangles);
   const std::vector<Vec3> dx = random_motion(s, 12);
   std::vector<char> marked(dx.size(), 0);
-  for (std::size_t i = 0; i < dx.size(); i += 23) marked[i] = 1;
+  for (std::size_t i = 0; i < dx.size(); i += 23)
+    marked[i] = 1;
   CcdCandidates some(s.triangles, topology), every(s.triangles, topology);
   some.find(s.x, dx, marked, false);
   every.find(s.x, dx, all(s), false);

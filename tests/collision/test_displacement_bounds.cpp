@@ -17,7 +17,9 @@ struct Turning {
   }
 };
 
-Box3 around_origin(double half) { return {Vec3::Constant(-half), Vec3::Constant(half)}; }
+Box3 around_origin(double half) {
+  return {Vec3::Constant(-half), Vec3::Constant(half)};
+}
 
 } // namespace
 
@@ -34,7 +36,8 @@ TEST(DisplacementBounds, bounds_the_displacements_of_all_skin_within_the_radius)
     for (const Triangle& t : ball.skin.triangles) {
       const auto near = point_triangle(place, ball.skin.positions[t[0]], ball.skin.positions[t[1]],
                                        ball.skin.positions[t[2]]);
-      if ((place - near.point).norm() > radius) continue;
+      if ((place - near.point).norm() > radius)
+        continue;
       for (int v : t)
         ASSERT_LE((ball.displacement[v] - own).norm(), bound * (1 + 1e-12)) << "place " << k;
     }

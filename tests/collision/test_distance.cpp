@@ -31,9 +31,12 @@ void triangle_of_kind(Random& random, int kind, Vec3& a, Vec3& b, Vec3& c) {
   a = random_point(random);
   b = random_point(random);
   c = random_point(random);
-  if (kind == 1) c = a + 0.3 * (b - a) + random_point(random, 1e-9);
-  if (kind == 2) c = a + 0.7 * (b - a);
-  if (kind == 3) b = c = a;
+  if (kind == 1)
+    c = a + 0.3 * (b - a) + random_point(random, 1e-9);
+  if (kind == 2)
+    c = a + 0.7 * (b - a);
+  if (kind == 3)
+    b = c = a;
   if (kind == 4) {
     b = a + 1e-7 * b;
     c = a + 1e-7 * c;
@@ -103,7 +106,8 @@ TEST(Distance, EdgeToEdgeIsTheLeastOverSamplesForParallelAndZeroLengthEdgesToo) 
     if (i % 4 == 1)
       b1 = b0 + random.uniform(-1, 1) * (a1 - a0) +
            random_point(random, almost[i % 7]); // near parallel
-    if (i % 4 == 2) b1 = b0;
+    if (i % 4 == 2)
+      b1 = b0;
     const Vec3 end = i % 8 == 6 ? a0 : a1;
     const EdgeEdge r = edge_edge(a0, end, b0, b1);
     const double found = std::sqrt(r.squared_distance),

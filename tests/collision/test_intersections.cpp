@@ -23,7 +23,8 @@ std::vector<std::array<int, 2>> brute_force(const TriangleMesh& mesh) {
     for (int b = a + 1; b < n; ++b) {
       bool shared = false;
       for (int u : mesh.triangles[a])
-        for (int v : mesh.triangles[b]) shared |= u == v;
+        for (int v : mesh.triangles[b])
+          shared |= u == v;
       if (!shared && triangles_intersect(corners(mesh, a), corners(mesh, b)))
         pairs.push_back({a, b});
     }
@@ -48,7 +49,8 @@ TEST(Predicates, OrientationChangesSignWithEveryExchangeOfPoints) {
   Random random(21);
   for (int i = 0; i < 2000; ++i) {
     Vec3 p[4];
-    for (Vec3& v : p) v = shapes::grid_point(random, 4) * (i % 2 ? 0.1 : 1.0); // many exact ties
+    for (Vec3& v : p)
+      v = shapes::grid_point(random, 4) * (i % 2 ? 0.1 : 1.0); // many exact ties
     const int o = orientation(p[0], p[1], p[2], p[3]);
     ASSERT_EQ(orientation(p[1], p[0], p[2], p[3]), -o);
     ASSERT_EQ(orientation(p[1], p[2], p[0], p[3]), o);
@@ -112,7 +114,8 @@ TEST(SelfIntersections, GridPointsGiveAllKindsOfTouching) {
   Random random(24);
   TriangleMesh mesh;
   for (int i = 0; i < 200; ++i) {
-    for (int k = 0; k < 3; ++k) mesh.positions.push_back(shapes::grid_point(random, 5) * 0.1);
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.push_back(shapes::grid_point(random, 5) * 0.1);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   EXPECT_EQ(self_intersections(mesh.positions, mesh.triangles,

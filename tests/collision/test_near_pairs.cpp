@@ -31,21 +31,21 @@ Sets brute_force(const TriangleMesh& cloth, const Topology& topology, const Tria
   const auto& x = cloth.positions;
   const auto& y = body.positions;
   const Topology skin = make_topology(y.size(), body.triangles);
-  for (int v = 0; v < static_cast<int>(x.size()); ++v)
-    for (int g = 0; g < static_cast<int>(body.triangles.size()); ++g) {
+  for (int v = 0; v < std::ssize(x); ++v)
+    for (int g = 0; g < std::ssize(body.triangles); ++g) {
       const Triangle& t = body.triangles[g];
       if (point_triangle(x[v], y[t[0]], y[t[1]], y[t[2]]).squared_distance <=
           vertex_radius * vertex_radius)
         s.vertex_face.insert({v, g, 0});
     }
-  for (int f = 0; f < static_cast<int>(cloth.triangles.size()); ++f)
-    for (int b = 0; b < static_cast<int>(y.size()); ++b) {
+  for (int f = 0; f < std::ssize(cloth.triangles); ++f)
+    for (int b = 0; b < std::ssize(y); ++b) {
       const Triangle& t = cloth.triangles[f];
       if (point_triangle(y[b], x[t[0]], x[t[1]], x[t[2]]).squared_distance <=
           edge_radius * edge_radius)
         s.face_vertex.insert({f, b, 0});
     }
-  for (int k = 0; k < static_cast<int>(skin.edges.size()); ++k) {
+  for (int k = 0; k < std::ssize(skin.edges); ++k) {
     const auto [b0, b1] = skin.edges[k];
     const auto around = skin.triangles_of_edge(k);
     if (around.size() ==
@@ -54,14 +54,16 @@ Sets brute_force(const TriangleMesh& cloth, const Topology& topology, const Tria
       const Vec3 n = area_normal(y[t[0]], y[t[1]], y[t[2]]).normalized();
       int far = -1;
       for (int v : body.triangles[around[1]])
-        if (v != b0 && v != b1) far = v;
+        if (v != b0 && v != b1)
+          far = v;
       const Vec3 outwards = y[far] - y[b0], line = (y[b1] - y[b0]).normalized();
       const double below =
           -n.dot(outwards) / (outwards - outwards.dot(line) * line).norm(); // sine of the angle
       EXPECT_GT(std::abs(below - 1e-3), 1e-6) << "the case is on the threshold";
-      if (below <= 1e-3) continue;
+      if (below <= 1e-3)
+        continue;
     }
-    for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e) {
+    for (int e = 0; e < std::ssize(topology.edges); ++e) {
       const auto [a0, a1] = topology.edges[e];
       if (edge_edge(x[a0], x[a1], y[b0], y[b1]).squared_distance <= edge_radius * edge_radius)
         s.edge_edge.insert(with_edge(e, b0, b1));
@@ -92,7 +94,8 @@ Sets found(const TriangleMesh& cloth, const Topology& topology, const BodyCollid
 void expect_brute_force(std::uint64_t seed, int k, bool holes) {
   TriangleMesh body = shapes::sphere(2, 0.5), cloth = shapes::sheet(12, 12, 1.2, 1.2);
   shapes::jitter(body, 0.02, seed);
-  if (holes) body.triangles.erase(body.triangles.begin() + 40, body.triangles.begin() + 60);
+  if (holes)
+    body.triangles.erase(body.triangles.begin() + 40, body.triangles.begin() + 60);
   for (Vec3& p : cloth.positions) {
     const Vec3 q = p - Vec3(0.6, 0.6, 0);
     p = Vec3(q.x(), q.y(), std::sqrt(std::max(0.0, 0.28 - q.head<2>().squaredNorm())));
@@ -117,11 +120,13 @@ void expect_brute_force(std::uint64_t seed, int k, bool holes) {
 } // namespace
 
 TEST(NearPairs, of_cloth_and_body_are_those_of_brute_force_at_every_level) {
-  for (std::uint64_t seed : {1, 2, 3}) expect_brute_force(seed, 6, false);
+  for (std::uint64_t seed : {1, 2, 3})
+    expect_brute_force(seed, 6, false);
 }
 
 TEST(NearPairs, are_those_of_brute_force_for_every_k_and_at_holes) {
-  for (int k : {6, 14, 18, 26}) expect_brute_force(4, k, true);
+  for (int k : {6, 14, 18, 26})
+    expect_brute_force(4, k, true);
 }
 
 TEST(NearPairs, come_in_one_order_for_any_number_of_threads) {
@@ -136,10 +141,14 @@ TEST(NearPairs, come_in_one_order_for_any_number_of_threads) {
     collider.near_pairs(cloth.positions, cloth.triangles, topology,
                         std::vector<char>(cloth.triangles.size(), 1), 0.1, 0.1, pairs);
     std::vector<std::array<int, 3>> list;
-    for (const auto& p : pairs.edge_edge) list.push_back({p.edge, p.body_triangle, p.side});
-    for (const auto& p : pairs.vertex_face) list.push_back({p.vertex, p.body_triangle, -1});
-    for (const auto& p : pairs.face_vertex) list.push_back({p.triangle, p.body_vertex, -2});
-    if (first.empty()) first = list;
+    for (const auto& p : pairs.edge_edge)
+      list.push_back({p.edge, p.body_triangle, p.side});
+    for (const auto& p : pairs.vertex_face)
+      list.push_back({p.vertex, p.body_triangle, -1});
+    for (const auto& p : pairs.face_vertex)
+      list.push_back({p.triangle, p.body_vertex, -2});
+    if (first.empty())
+      first = list;
     EXPECT_EQ(list, first);
   }
   set_thread_count(1);

@@ -15,7 +15,8 @@ constexpr double ANY_DISTANCE = std::numeric_limits<double>::infinity();
 TriangleMesh troubled() {
   TriangleMesh mesh = shapes::sphere(4);
   shapes::append(mesh, shapes::sphere(3, 0.6, {0.9, 0.013, 0.007}));
-  for (int f = 100; f < 140; ++f) std::swap(mesh.triangles[f][0], mesh.triangles[f][1]);
+  for (int f = 100; f < 140; ++f)
+    std::swap(mesh.triangles[f][0], mesh.triangles[f][1]);
   std::erase_if(mesh.triangles, [&](const Triangle& t) { return mesh.positions[t[0]].y() > 0.97; });
   mesh.positions.push_back({0.1, -1.4, 0});
   mesh.triangles.push_back(
@@ -46,7 +47,8 @@ void expect_same(const BodyCollider& a, const BodyCollider& b) {
   const auto here = a.face_contacts(cloth.positions, cloth.triangles, 0.05),
              there = b.face_contacts(cloth.positions, cloth.triangles, 0.05);
   ASSERT_EQ(here.size(), there.size());
-  for (std::size_t i = 0; i < here.size(); ++i) ASSERT_EQ(here[i].distance, there[i].distance);
+  for (std::size_t i = 0; i < here.size(); ++i)
+    ASSERT_EQ(here[i].distance, there[i].distance);
 }
 
 TEST(PreparedSkin, MakesTheSameColliderToTheBit) {
@@ -69,7 +71,8 @@ TEST(PreparedSkin, IsThatOfTheSkinAlsoOnceItHasMoved) {
   const PreparedSkin found = fresh.prepared();
   BodyCollider again(mesh, found);
   std::vector<Vec3> moved = mesh.positions;
-  for (Vec3& p : moved) p = 0.9 * p + Vec3(0.1, 0, 0);
+  for (Vec3& p : moved)
+    p = 0.9 * p + Vec3(0.1, 0, 0);
   fresh.set_positions(moved);
   again.set_positions(moved);
   EXPECT_EQ(fresh.prepared(), found);

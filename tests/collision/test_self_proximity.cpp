@@ -17,15 +17,17 @@ struct Pairs {
 Pairs brute_force(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, double radius,
                   const std::vector<std::vector<int>>& never = {}) {
   const auto apart = [&](int a, int b) {
-    if (never.empty()) return false;
+    if (never.empty())
+      return false;
     return std::count(never[a].begin(), never[a].end(), b) > 0 ||
            std::count(never[b].begin(), never[b].end(), a) > 0;
   };
   Pairs pairs;
   std::set<int> used;
-  for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
+  for (const Triangle& t : triangles)
+    used.insert(t.begin(), t.end());
   for (int v : used)
-    for (int f = 0; f < static_cast<int>(triangles.size()); ++f) {
+    for (int f = 0; f < std::ssize(triangles); ++f) {
       const Triangle& t = triangles[f];
       if (t[0] == v || t[1] == v || t[2] == v || apart(v, t[0]) || apart(v, t[1]) || apart(v, t[2]))
         continue;
@@ -33,8 +35,8 @@ Pairs brute_force(const std::vector<Vec3>& x, const std::vector<Triangle>& trian
         pairs.vertex_face.insert({v, f});
     }
   const auto edges = edges_of(triangles);
-  for (int a = 0; a < static_cast<int>(edges.size()); ++a)
-    for (int b = a + 1; b < static_cast<int>(edges.size()); ++b) {
+  for (int a = 0; a < std::ssize(edges); ++a)
+    for (int b = a + 1; b < std::ssize(edges); ++b) {
       const auto [a0, a1] = edges[a];
       const auto [b0, b1] = edges[b];
       if (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1 || apart(a0, b0) || apart(a0, b1) ||
@@ -118,8 +120,10 @@ TEST(SelfProximity, HandlesRepeatedIndicesCoincidentPointsAndNaN) {
   expect_like_brute_force(proximity, mesh.positions, 0.07);
   mesh.positions[30] = Vec3::Constant(std::nan(""));
   proximity.update(mesh.positions, 0.07);
-  for (const auto& p : proximity.vertex_face()) ASSERT_TRUE(std::isfinite(p.distance));
-  for (const auto& p : proximity.edge_edge()) ASSERT_TRUE(std::isfinite(p.distance));
+  for (const auto& p : proximity.vertex_face())
+    ASSERT_TRUE(std::isfinite(p.distance));
+  for (const auto& p : proximity.edge_edge())
+    ASSERT_TRUE(std::isfinite(p.distance));
 }
 
 TEST(SelfProximity, LeavesOutListedNeighbours) {
@@ -127,7 +131,8 @@ TEST(SelfProximity, LeavesOutListedNeighbours) {
   const auto n = static_cast<int>(mesh.positions.size());
   shapes::append(mesh, shapes::sheet(8, 8, 1, 1, 0.02));
   std::vector<std::vector<int>> never(mesh.positions.size());
-  for (int v = 0; v < n; v += 2) never[v].push_back(v + n); // one way only: it counts both ways
+  for (int v = 0; v < n; v += 2)
+    never[v].push_back(v + n); // one way only: it counts both ways
   SelfProximity all(mesh.positions.size(), mesh.triangles),
       some(mesh.positions.size(), mesh.triangles, never);
   expect_like_brute_force(all, mesh.positions, 0.05);
@@ -167,12 +172,15 @@ std::vector<double> safe_moves(const SelfProximity& proximity, std::size_t n_par
   std::vector<double> bound(n_particles, radius);
   for (const VertexFacePair& pair : proximity.vertex_face()) {
     bound[pair.vertex] = std::min(bound[pair.vertex], pair.distance);
-    for (int v : proximity.triangles()[pair.triangle]) bound[v] = std::min(bound[v], pair.distance);
+    for (int v : proximity.triangles()[pair.triangle])
+      bound[v] = std::min(bound[v], pair.distance);
   }
   for (const EdgeEdgePair& pair : proximity.edge_edge())
     for (int e : {pair.edge_a, pair.edge_b})
-      for (int v : proximity.topology().edges[e]) bound[v] = std::min(bound[v], pair.distance);
-  for (double& b : bound) b *= part;
+      for (int v : proximity.topology().edges[e])
+        bound[v] = std::min(bound[v], pair.distance);
+  for (double& b : bound)
+    b *= part;
   return bound;
 }
 

@@ -111,7 +111,8 @@ TEST(SkinCache, ProcessesShareAFolder) {
       Heard heard;
       for (int round = 0; round < 10; ++round) {
         run(folder / "kept", skin(), heard);
-        if (round % 3 == i % 3) unlink(file_in(folder, skin()).c_str());
+        if (round % 3 == i % 3)
+          unlink(file_in(folder, skin()).c_str());
       }
       _exit(testing::Test::HasFailure() || heard.n_warnings > 0 || has(heard.infos, "damaged") ? 1
                                                                                                : 0);

@@ -13,7 +13,7 @@ using shapes::random_point;
 
 ClosestPoint brute_closest(const TriangleMesh& mesh, const Vec3& p, double max_distance) {
   ClosestPoint best;
-  for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
+  for (int f = 0; f < std::ssize(mesh.triangles); ++f) {
     const Triangle& t = mesh.triangles[f];
     const PointTriangle d =
         point_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
@@ -54,7 +54,8 @@ TEST_P(TreeOfEachK, ClosestPointEqualsBruteForceOnASphereWhateverTheHint) {
 TEST_P(TreeOfEachK, ClosestPointEqualsBruteForceAfterARefitThatWasNotForPoints) {
   TriangleMesh mesh = shapes::sphere(3);
   TriangleTree tree(mesh.positions, mesh.triangles, GetParam());
-  for (Vec3& p : mesh.positions) p.y() *= 0.5;
+  for (Vec3& p : mesh.positions)
+    p.y() *= 0.5;
   tree.refit(mesh.positions, false);
   expect_like_brute_force(tree, mesh, 13, 100);
 }
@@ -112,7 +113,8 @@ TEST_P(TreeOfEachK, VisitsEachUnorderedSlotPairWithinTheMarginOnce) {
   auto sorted = pairs;
   std::sort(sorted.begin(), sorted.end());
   EXPECT_EQ(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  for (const auto& [a, b] : pairs) ASSERT_LT(a, b);
+  for (const auto& [a, b] : pairs)
+    ASSERT_LT(a, b);
   for (int a = 0; a < tree.n_slots(); ++a)
     for (int b = a + 1; b < tree.n_slots(); ++b) {
       double nearest = 1e300;
@@ -143,8 +145,10 @@ TEST_P(TreeOfEachK, LowestNodesHoldFourSlotsEachAndABoxWithoutBordersOverlapsThe
     std::sort(first.begin(), first.end());
     ASSERT_EQ(static_cast<int>(slots.size()), n);
     ASSERT_EQ(static_cast<int>(first.size()), (n + 3) / 4);
-    for (int i = 0; i < n; ++i) ASSERT_EQ(slots[i], i);
-    for (std::size_t i = 0; i < first.size(); ++i) ASSERT_EQ(first[i], 4 * static_cast<int>(i));
+    for (int i = 0; i < n; ++i)
+      ASSERT_EQ(slots[i], i);
+    for (std::size_t i = 0; i < first.size(); ++i)
+      ASSERT_EQ(first[i], 4 * static_cast<int>(i));
   }
 }
 
@@ -197,7 +201,9 @@ TEST(TriangleTree, ManyEqualTrianglesDoNotUnbalanceIt) {
   EXPECT_LT(tree.nodes().size(), 3000u);
 }
 
-TEST(TriangleTree, RefusesOtherK) { EXPECT_THROW(TriangleTree({}, {}, 8), Error); }
+TEST(TriangleTree, RefusesOtherK) {
+  EXPECT_THROW(TriangleTree({}, {}, 8), Error);
+}
 
 TEST(TriangleTree, NonFiniteVerticesHideOnlyTheirOwnTriangles) {
   TriangleMesh mesh = shapes::sphere(2);

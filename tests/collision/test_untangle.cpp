@@ -21,7 +21,8 @@ Untangled untangle(TriangleMesh& mesh, double step, int rounds) {
   for (; result.rounds < rounds; ++result.rounds) {
     const auto pairs = untangle_directions(mesh.positions, mesh.triangles, topology, tree);
     result.left = self_intersections(mesh.positions, mesh.triangles, tree).size();
-    if (result.left == 0) break;
+    if (result.left == 0)
+      break;
     auto d = untangle_displacements(pairs, mesh.triangles, topology, mesh.positions.size(), step);
     for (int pass = 0; pass < 3; ++pass) {
       auto smooth = d;
@@ -37,7 +38,8 @@ Untangled untangle(TriangleMesh& mesh, double step, int rounds) {
       }
       d = smooth;
     }
-    for (std::size_t v = 0; v < d.size(); ++v) mesh.positions[v] += d[v];
+    for (std::size_t v = 0; v < d.size(); ++v)
+      mesh.positions[v] += d[v];
     tree.refit(mesh.positions);
   }
   return result;
@@ -95,7 +97,8 @@ TEST(Untangle, AFlapThroughAnEdgeIsDrawnOut) {
   // the rim of one sheet cuts a little way through another: an open contour
   TriangleMesh mesh = shapes::sheet(20, 20, 1, 1);
   TriangleMesh upright = shapes::sheet(17, 17, 0.6, 0.6);
-  for (Vec3& p : upright.positions) p = flap(p);
+  for (Vec3& p : upright.positions)
+    p = flap(p);
   shapes::append(mesh, upright);
   const Untangled result = untangle(mesh, 0.004, 100);
   EXPECT_GT(result.at_first, 10u);
@@ -106,7 +109,8 @@ TEST(Untangle, PinnedVerticesStay) {
   TriangleMesh mesh = shapes::sheet(6, 6, 1, 1);
   const std::size_t base = mesh.positions.size();
   TriangleMesh upright = shapes::sheet(5, 5, 0.6, 0.6);
-  for (Vec3& p : upright.positions) p = flap(p);
+  for (Vec3& p : upright.positions)
+    p = flap(p);
   shapes::append(mesh, upright);
   std::vector<double> inverse_mass(mesh.positions.size(), 1);
   std::fill(inverse_mass.begin(), inverse_mass.begin() + static_cast<long>(base), 0.0);
@@ -117,8 +121,10 @@ TEST(Untangle, PinnedVerticesStay) {
                                         0.01, inverse_mass);
   double most = 0;
   for (std::size_t v = 0; v < d.size(); ++v) {
-    if (v < base) EXPECT_EQ(d[v], Vec3::Zero());
-    else most = std::max(most, d[v].norm());
+    if (v < base)
+      EXPECT_EQ(d[v], Vec3::Zero());
+    else
+      most = std::max(most, d[v].norm());
     ASSERT_LE(d[v].norm(), 0.01 + 1e-12);
   }
   EXPECT_GT(most, 0.005);

@@ -41,7 +41,8 @@ void read_document_file(const std::string& path) {
     try {
       read();
     } catch (const Error& e) {
-      if (e.kind() != ErrorKind::INPUT) std::abort();
+      if (e.kind() != ErrorKind::INPUT)
+        std::abort();
     }
   };
   attempt([&] { body::read_body(path); });
@@ -54,9 +55,11 @@ void read_bvh_bytes(std::string_view bytes) {
   static const body::Body body = person();
   try {
     const body::Motion motion = body::parse_bvh(bytes, "fuzz.bvh", body, 0.05);
-    for (const body::Pose& pose : motion.poses) body::joint_motions(body, pose);
+    for (const body::Pose& pose : motion.poses)
+      body::joint_motions(body, pose);
   } catch (const Error& e) {
-    if (e.kind() != ErrorKind::INPUT) std::abort();
+    if (e.kind() != ErrorKind::INPUT)
+      std::abort();
   }
 }
 

@@ -39,10 +39,13 @@ void read_prepared_skin_bytes(std::string_view bytes) {
   for (const std::string_view file : {std::string_view(sealed), bytes}) {
     const auto known =
         collision::prepared_from_bytes(file, key, mesh.positions.size(), mesh.triangles.size());
-    if (!known) continue;
-    if (collision::to_bytes(*known, key) != file) std::abort();
+    if (!known)
+      continue;
+    if (collision::to_bytes(*known, key) != file)
+      std::abort();
     const collision::BodyCollider collider(mesh, *known);
-    if (!collider.prepared().fits(mesh.positions.size(), mesh.triangles.size())) std::abort();
+    if (!collider.prepared().fits(mesh.positions.size(), mesh.triangles.size()))
+      std::abort();
     for (const Vec3& p : {Vec3(0.1, 0.2, 0.3), Vec3(2, 0.1, 0)})
       if (!std::isfinite(collider.signed_distance(p, 1e9).distance) ||
           !std::isfinite(collider.winding_number(p)))

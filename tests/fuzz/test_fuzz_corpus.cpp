@@ -40,11 +40,15 @@ void read_all(const char* folder, const Reader& reader) {
 
 } // namespace
 
-TEST(FuzzCorpus, scans_are_read_or_refused) { read_all("scan", sloper::fuzz::read_scan_bytes); }
+TEST(FuzzCorpus, scans_are_read_or_refused) {
+  read_all("scan", sloper::fuzz::read_scan_bytes);
+}
 TEST(FuzzCorpus, garment_meshes_are_read_or_refused) {
   read_all("mesh_file", sloper::fuzz::read_mesh_file_bytes);
 }
-TEST(FuzzCorpus, json_is_read_or_refused) { read_all("json", sloper::fuzz::read_json_bytes); }
+TEST(FuzzCorpus, json_is_read_or_refused) {
+  read_all("json", sloper::fuzz::read_json_bytes);
+}
 TEST(FuzzCorpus, documents_are_read_or_refused) {
   const std::string path = ::testing::TempDir() + "sloper-fuzz-document.json";
   read_all("document", [&](std::string_view bytes) {
@@ -56,4 +60,6 @@ TEST(FuzzCorpus, documents_are_read_or_refused) {
 TEST(FuzzCorpus, prepared_skins_are_read_or_made_anew) {
   read_all("prepared_skin", sloper::fuzz::read_prepared_skin_bytes);
 }
-TEST(FuzzCorpus, motions_are_read_or_refused) { read_all("bvh", sloper::fuzz::read_bvh_bytes); }
+TEST(FuzzCorpus, motions_are_read_or_refused) {
+  read_all("bvh", sloper::fuzz::read_bvh_bytes);
+}

@@ -44,7 +44,8 @@ Garment two_squares() {
   g.particle_of = {0, 1, 2, 3, 1, 4, 5, 2};
   g.position = {{0, 1, 0},   {0.1, 1, 0}, {0.1, 1.1, 1.0 / 3},
                 {0, 1.1, 0}, {0.2, 1, 0}, {0.2, 1.1, 0}};
-  for (const int p : g.particle_of) g.panels.placed.push_back(g.position[p]);
+  for (const int p : g.particle_of)
+    g.panels.placed.push_back(g.position[p]);
   g.materials["lining"].density_kg_m2 = 0.07;
   g.materials["lining"].source = "measured";
   g.rest_scale.assign(4, {1, 1, 1});
@@ -78,7 +79,8 @@ protected:
     write_garment(path("a.json"), two_squares(), "test");
     std::string text = io::read_file(path(file));
     const auto at = text.find(from);
-    if (at == std::string::npos) return "the text to spoil is not there: " + from;
+    if (at == std::string::npos)
+      return "the text to spoil is not there: " + from;
     text.replace(at, from.size(), to);
     io::write_file(path(file), text);
     try {

@@ -51,6 +51,7 @@ TEST(DisjointSets, are_what_spreading_the_lowest_number_over_the_pairs_gives) {
     const int kept = std::min(lowest[a], lowest[b]);
     const int gone = std::max(lowest[a], lowest[b]);
     std::replace(lowest.begin(), lowest.end(), gone, kept);
-    for (int i = 0; i < N; ++i) ASSERT_EQ(sets.find(i), lowest[i]);
+    for (int i = 0; i < N; ++i)
+      ASSERT_EQ(sets.find(i), lowest[i]);
   }
 }

@@ -49,7 +49,8 @@ TEST(PartFrame, point_undoes_coordinates_for_any_axis) {
   Random random(3);
   for (int i = 0; i < 500; ++i) {
     const Vec3 lower = random_point(random, 2), upper = lower + random_point(random, 1);
-    if ((upper - lower).norm() < 0.01) continue;
+    if ((upper - lower).norm() < 0.01)
+      continue;
     const PartFrame frame = make_part_frame(lower, upper, {0, 0, 1}, i % 2 == 1);
     const Vec3 p = random_point(random, 2);
     EXPECT_LT((frame.point(frame.coordinates(p)) - p).norm(), 1e-12);

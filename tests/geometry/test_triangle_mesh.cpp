@@ -9,7 +9,8 @@ using namespace sloper;
 /// A unit cube with outward faces.
 static TriangleMesh cube() {
   TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
@@ -28,7 +29,8 @@ TEST(TriangleMesh, has_zero_normals_where_no_triangle_or_only_a_flat_one_meets) 
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}};
   mesh.triangles = {{0, 1, 2}, {1, 1, 0}};
-  for (const Vec3& n : vertex_normals(mesh)) EXPECT_EQ(n, Vec3::Zero());
+  for (const Vec3& n : vertex_normals(mesh))
+    EXPECT_EQ(n, Vec3::Zero());
 }
 
 TEST(TriangleMesh, lists_each_edge_once_in_order) {

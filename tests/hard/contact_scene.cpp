@@ -21,15 +21,20 @@ struct Motion {
   std::vector<Vec3> at(const std::vector<Vec3>& rest, double t) const {
     std::vector<Vec3> x = rest;
     if (kind == "through") { // along +z
-      for (Vec3& p : x) p.z() += std::min(speed * t, distance);
+      for (Vec3& p : x)
+        p.z() += std::min(speed * t, distance);
     } else if (kind == "close") { // two halves towards each other and, after a rest of 2 s, back
       const double arrival = distance / speed, departure = arrival + 2;
       double d = distance;
-      if (t < arrival) d = speed * t;
-      else if (t >= departure) d = std::max(distance - speed * (t - arrival - 2), 0.0);
-      for (Vec3& p : x) p.z() += p.z() > 0 ? -d : d;
+      if (t < arrival)
+        d = speed * t;
+      else if (t >= departure)
+        d = std::max(distance - speed * (t - arrival - 2), 0.0);
+      for (Vec3& p : x)
+        p.z() += p.z() > 0 ? -d : d;
     } else if (kind == "shake") {
-      for (Vec3& p : x) p.x() += distance * std::sin(speed / distance * t);
+      for (Vec3& p : x)
+        p.x() += distance * std::sin(speed / distance * t);
     }
     return x;
   }
@@ -58,7 +63,8 @@ double way_to(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec
               const Vec3& c) {
   const Vec3 u = b - a, v = c - a, across = direction.cross(v);
   const double det = u.dot(across);
-  if (std::abs(det) < 1e-18) return -1;
+  if (std::abs(det) < 1e-18)
+    return -1;
   const Vec3 from = start - a, q = from.cross(u);
   const double s = from.dot(across) / det, t = direction.dot(q) / det;
   return s < 0 || t < 0 || s + t > 1 ? -1 : v.dot(q) / det;
@@ -92,14 +98,16 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
   const double size = p.number("size_m", 0.2), height = p.number("height_m", 0.11),
                spacing = p.number("layer_spacing_m", 0.004);
   std::vector<double> offsets;
-  for (int k = 0; k < layers; ++k) offsets.push_back(k * spacing);
+  for (int k = 0; k < layers; ++k)
+    offsets.push_back(k * spacing);
   const Vec3 corner = hanging ? Vec3(-0.5 * size, 0.5 * size + p.number("lift_m", 0), height)
                               : Vec3(-0.5 * size, height, 0.5 * size);
   Sheet s =
       make_sheet(std::vector<double>(cells, size / cells), std::vector<double>(cells, size / cells),
                  fabric_of(p), hanging, corner, offsets);
   if (const double turn = p.number("turn_deg", 0); turn != 0)
-    for (Vec3& q : s.x) q = Eigen::AngleAxisd(turn * M_PI / 180, Vec3::UnitY()) * q;
+    for (Vec3& q : s.x)
+      q = Eigen::AngleAxisd(turn * M_PI / 180, Vec3::UnitY()) * q;
   jitter(s.x, p.number("jitter_m", 1e-4), seed);
 
   collision::BodyCollider body(skin);
@@ -153,14 +161,17 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
       break;
     const BodyState now = look(body, solver.x(), triangles);
     largest_inside = std::max(largest_inside, now.inside);
-    if (now.through + now.inside > 0) clean_since = -1;
-    else if (clean_since < 0) clean_since = t;
+    if (now.through + now.inside > 0)
+      clean_since = -1;
+    else if (clean_since < 0)
+      clean_since = t;
     double sum = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       sum += (solver.x()[i] - before[i]).squaredNorm() /
              (o.h * o.h * static_cast<double>(before.size()));
     still_speed = std::sqrt(sum);
-    if (motion.kind == "close" && t < there + 2) rms_when_pinched = still_speed;
+    if (motion.kind == "close" && t < there + 2)
+      rms_when_pinched = still_speed;
   }
   Outcome out;
   watch.fill(out);

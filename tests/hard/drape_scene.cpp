@@ -48,7 +48,8 @@ Garment make_garment(const Parameters& p) {
   const double edge = p.number("edge_m", 0.03), girth = p.number("girth_m", 0.75),
                length = p.number("length_m", 0.3);
   const double top = p.number("top_m", 1.02), away = p.number("away_m", 0.25);
-  if (kind == "skirt") return garment::make_skirt(girth, length, edge, top, away);
+  if (kind == "skirt")
+    return garment::make_skirt(girth, length, edge, top, away);
   Garment g;
   g.panels.name = kind;
   g.panels.edge_length = edge;
@@ -128,13 +129,19 @@ Garment make_garment(const Parameters& p) {
 /// Things that are wrong with the garment itself.
 void spoil(Garment& g, const std::string& what) {
   pattern::PanelMesh& m = g.panels;
-  if (what == "none" || m.triangles.empty()) return;
+  if (what == "none" || m.triangles.empty())
+    return;
   const Triangle some = m.triangles[std::min<std::size_t>(3, m.triangles.size() - 1)];
-  if (what == "nan_position") m.placed[m.placed.size() / 2].x() = std::nan("");
-  else if (what == "infinite_position") m.placed[m.placed.size() / 2].x() = INFINITY;
-  else if (what == "nan_pattern") m.pattern[m.pattern.size() / 2].x() = std::nan("");
-  else if (what == "zero_triangle") m.pattern[some[0]] = m.pattern[some[1]];
-  else if (what == "duplicate_face") m.triangles.push_back(some);
+  if (what == "nan_position")
+    m.placed[m.placed.size() / 2].x() = std::nan("");
+  else if (what == "infinite_position")
+    m.placed[m.placed.size() / 2].x() = INFINITY;
+  else if (what == "nan_pattern")
+    m.pattern[m.pattern.size() / 2].x() = std::nan("");
+  else if (what == "zero_triangle")
+    m.pattern[some[0]] = m.pattern[some[1]];
+  else if (what == "duplicate_face")
+    m.triangles.push_back(some);
   else if (what == "fin") { // a third triangle on an edge
     m.pattern.push_back(m.pattern[some[0]] + Vec2(0, 0.02));
     m.placed.push_back(m.placed[some[0]] + Vec3(0, 0, 0.02));
@@ -144,27 +151,36 @@ void spoil(Garment& g, const std::string& what) {
     m.pattern.push_back(Vec2(0, 0));
     m.placed.push_back(Vec3(0, 1, 0.3));
     m.ids.push_back(m.ids.back());
-  } else if (what == "bad_index") m.triangles.back()[1] = static_cast<int>(m.pattern.size()) + 5;
-  else if (what == "nan_material") g.materials[""].stretch_warp_n_m = std::nan("");
-  else if (what == "zero_density") g.materials[""].density_kg_m2 = 0;
+  } else if (what == "bad_index")
+    m.triangles.back()[1] = static_cast<int>(m.pattern.size()) + 5;
+  else if (what == "nan_material")
+    g.materials[""].stretch_warp_n_m = std::nan("");
+  else if (what == "zero_density")
+    g.materials[""].density_kg_m2 = 0;
   else if (what == "inverted") // every panel seen from the other side
-    for (Triangle& t : m.triangles) std::swap(t[1], t[2]);
+    for (Triangle& t : m.triangles)
+      std::swap(t[1], t[2]);
   else if (what == "coincident_seams")
     for (const pattern::MeshSeam& s : m.seams)
-      for (std::size_t k = 0; k < s.a.size(); ++k) m.placed[s.b[k]] = m.placed[s.a[k]];
+      for (std::size_t k = 0; k < s.a.size(); ++k)
+        m.placed[s.b[k]] = m.placed[s.a[k]];
   else if (what == "flat_together") // all panels in one plane, in one place
-    for (std::size_t v = 0; v < m.placed.size(); ++v) m.placed[v].z() = m.placed[0].z();
-  else throw input_error("hard.bad-scene"_id, "", "spoil", what + " is no fault of these scenes");
+    for (std::size_t v = 0; v < m.placed.size(); ++v)
+      m.placed[v].z() = m.placed[0].z();
+  else
+    throw input_error("hard.bad-scene"_id, "", "spoil", what + " is no fault of these scenes");
 }
 
 void measure(Outcome& out, const Garment& g, const garment::DrapeReport& report,
              const collision::BodyCollider* body) {
   out.said = stop_text(report);
-  for (const std::string& r : report.repairs) out.said += "; " + r;
+  for (const std::string& r : report.repairs)
+    out.said += "; " + r;
   out.exit = report.converged ? 0 : 4;
   const cloth::ClothMesh mesh = garment::cloth_mesh_of(g);
   measure_cloth(out, mesh, g.position);
-  if (out.value["finite"] == 0) return;
+  if (out.value["finite"] == 0)
+    return;
   const garment::Audit a = garment::audit(g, body);
   out.value["through"] = static_cast<double>(a.through.size());
   out.value["inside"] = static_cast<double>(a.inside.size());
@@ -174,7 +190,8 @@ void measure(Outcome& out, const Garment& g, const garment::DrapeReport& report,
   out.value["honest"] = !report.converged || a.clean();
   out.value["steps"] = report.steps;
   double top = -1e9, turned = 0;
-  for (const Vec3& q : g.position) top = std::max(top, q.y());
+  for (const Vec3& q : g.position)
+    top = std::max(top, q.y());
   for (const Triangle& t : g.particle_triangles())
     turned +=
         (g.position[t[1]] - g.position[t[0]]).cross(g.position[t[2]] - g.position[t[0]]).norm() <
@@ -189,7 +206,8 @@ Outcome drape_scene(const Parameters& p, std::uint64_t seed) {
   const std::string shape = p.text("body", "pillar");
   TriangleMesh skin = shape == "figure" ? garment::make_pillar(48, 40).skin : make_body_mesh(p);
   if (const double size = p.number("body_scale", 1); size != 1)
-    for (Vec3& q : skin.positions) q *= size;
+    for (Vec3& q : skin.positions)
+      q *= size;
   const TriangleMesh whole = skin;
   damage(skin, p.text("damage", "none"), seed);
   body::Body body = make_body(skin);
@@ -249,12 +267,14 @@ Outcome drape_scene(const Parameters& p, std::uint64_t seed) {
     g.rest_scale.assign(g.panels.triangles.size(), {1, 1, 1});
     for (std::size_t f = 0; f < g.panels.triangles.size(); ++f) {
       const double t = g.panels.ids[g.panels.triangles[f][0]].t;
-      if (t > 0.3 && t < 0.55) g.rest_scale[f] = {edit, edit, edit};
+      if (t > 0.3 && t < 0.55)
+        g.rest_scale[f] = {edit, edit, edit};
     }
     report = garment::drape(g, on, settings, silent_reporter());
   }
   collision::BodyCollider truth;
-  if (on) truth = collision::BodyCollider(whole);
+  if (on)
+    truth = collision::BodyCollider(whole);
   measure(out, g, report, on ? &truth : nullptr);
   const std::string damage_kind = p.text("damage", "none");
   if (on && (damage_kind == "noise" ||

@@ -27,7 +27,8 @@ struct Folder {
   std::filesystem::path path;
   Folder() {
     std::string name = (std::filesystem::temp_directory_path() / "sloper-hard-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    if (!mkdtemp(name.data()))
+      throw std::runtime_error("no temporary folder");
     path = name;
   }
   ~Folder() { std::filesystem::remove_all(path); }
@@ -42,7 +43,8 @@ bool replace_number(std::string& text, const std::string& word, std::uint64_t se
   std::vector<std::pair<std::size_t, std::size_t>> numbers;
   bool quoted = false;
   for (std::size_t i = from; i < text.size();) {
-    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '"')
+      quoted = !quoted;
     const bool digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
     if (quoted || !digit || (i > 0 && std::isalnum(static_cast<unsigned char>(text[i - 1])))) {
       ++i;
@@ -55,7 +57,8 @@ bool replace_number(std::string& text, const std::string& word, std::uint64_t se
     numbers.emplace_back(i, end - i);
     i = end;
   }
-  if (numbers.empty()) return false;
+  if (numbers.empty())
+    return false;
   Random random(seed + 5);
   const auto [at, length] = numbers[random.next() % numbers.size()];
   text.replace(at, length, word);
@@ -71,20 +74,34 @@ const char* PATTERN = R"({"format": "pattern", "version": 1, "name": "square", "
 std::string broken_obj(const std::string& what) {
   const std::string good =
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n";
-  if (what == "nan") return "v nan 0 0\n" + good;
-  if (what == "infinity") return "v 1e999 0 0\n" + good;
-  if (what == "text") return "v one two three\n" + good;
-  if (what == "index_beyond") return good + "f 1 2 99\n";
-  if (what == "index_zero") return good + "f 0 1 2\n";
-  if (what == "index_negative") return good + "f -9 -8 -7\n";
-  if (what == "empty") return "";
-  if (what == "no_vertices") return "# nothing\n";
-  if (what == "no_faces") return "v 0 0 0\nv 1 0 0\n";
-  if (what == "binary") return std::string("v 0 0 0\n\0\1\2\3", 12);
-  if (what == "two_numbers") return "v 0 0\n" + good;
-  if (what == "repeated_corner") return good + "f 1 1 2\n";
-  if (what == "duplicate_faces") return good + "f 1 2 3\nf 1 2 3\n";
-  if (what == "lone_vertex") return good + "v 5 5 5\n";
+  if (what == "nan")
+    return "v nan 0 0\n" + good;
+  if (what == "infinity")
+    return "v 1e999 0 0\n" + good;
+  if (what == "text")
+    return "v one two three\n" + good;
+  if (what == "index_beyond")
+    return good + "f 1 2 99\n";
+  if (what == "index_zero")
+    return good + "f 0 1 2\n";
+  if (what == "index_negative")
+    return good + "f -9 -8 -7\n";
+  if (what == "empty")
+    return "";
+  if (what == "no_vertices")
+    return "# nothing\n";
+  if (what == "no_faces")
+    return "v 0 0 0\nv 1 0 0\n";
+  if (what == "binary")
+    return std::string("v 0 0 0\n\0\1\2\3", 12);
+  if (what == "two_numbers")
+    return "v 0 0\n" + good;
+  if (what == "repeated_corner")
+    return good + "f 1 1 2\n";
+  if (what == "duplicate_faces")
+    return good + "f 1 2 3\nf 1 2 3\n";
+  if (what == "lone_vertex")
+    return good + "v 5 5 5\n";
   throw input_error("hard.bad-scene"_id, "", "broken", what + " is no fault of these scenes");
 }
 
@@ -122,15 +139,21 @@ Outcome file_scene(const Parameters& p, std::uint64_t seed) {
   const std::string target = into == "obj" ? io::mesh_path_beside(path) : path;
   std::string text = io::read_file(target);
   const std::size_t from = into == "obj" ? text.find("\nv ") : text.find("version") + 12;
-  if (word == "cut") text.resize(text.size() / 2 + seed % 7);
+  if (word == "cut")
+    text.resize(text.size() / 2 + seed % 7);
   else if (!replace_number(text, word, seed, from))
     throw std::runtime_error("no number in " + target);
   std::ofstream(target, std::ios::binary | std::ios::trunc) << text;
-  if (kind == "panels") pattern::read_panel_mesh(path);
-  else if (kind == "garment") garment::read_garment(path);
-  else if (kind == "body") body::read_body(path);
-  else if (kind == "scene") garment::read_scene(path);
-  else pattern::read_pattern(path, "");
+  if (kind == "panels")
+    pattern::read_panel_mesh(path);
+  else if (kind == "garment")
+    garment::read_garment(path);
+  else if (kind == "body")
+    body::read_body(path);
+  else if (kind == "scene")
+    garment::read_scene(path);
+  else
+    pattern::read_pattern(path, "");
   return out;
 }
 
@@ -140,8 +163,10 @@ Outcome scan_scene(const Parameters& p, std::uint64_t seed) {
   TriangleMesh mesh = samples::make_mannequin(shape).mesh;
   jitter(mesh.positions, p.number("jitter_m", 2e-4), seed);
   damage(mesh, p.text("damage", "none"), seed);
-  for (Vec3& q : mesh.positions) q *= p.number("unit", 1);
-  if (p.flag("points_only", false)) mesh.triangles.clear();
+  for (Vec3& q : mesh.positions)
+    q *= p.number("unit", 1);
+  if (p.flag("points_only", false))
+    mesh.triangles.clear();
   body::ScanOptions options;
   options.jitter = 0;
   options.unit = p.text("say_unit", "auto");
@@ -150,10 +175,12 @@ Outcome scan_scene(const Parameters& p, std::uint64_t seed) {
   Outcome out;
   out.value["stature_m"] = found.body.scan.stature_m;
   bool finite = true;
-  for (const auto& [name, l] : found.body.landmarks) finite = finite && l.p.allFinite();
+  for (const auto& [name, l] : found.body.landmarks)
+    finite = finite && l.p.allFinite();
   out.value["finite"] = finite;
   out.value["landmarks"] = static_cast<double>(found.body.landmarks.size());
-  for (const body::Finding& f : found.body.scan.findings) out.said += f.what + "; ";
+  for (const body::Finding& f : found.body.scan.findings)
+    out.said += f.what + "; ";
   fingerprint(out, found.body.skin.positions);
   return out;
 }

@@ -27,7 +27,8 @@ std::string Parameters::text(const std::string& key, const std::string& fallback
 std::vector<std::string> Parameters::unused() const {
   std::vector<std::string> out;
   for (const auto& [key, value] : m_values.items())
-    if (!m_used.count(key)) out.push_back(key);
+    if (!m_used.count(key))
+      out.push_back(key);
   return out;
 }
 
@@ -40,7 +41,8 @@ constexpr double SLOWER = 1;
 #endif
 
 std::string short_text(const io::Json& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string())
+    return value.get<std::string>();
   char text[32];
   std::snprintf(text, sizeof text, "%g", value.get<double>());
   return text;
@@ -63,7 +65,8 @@ std::vector<Point> make_points(const io::Json& sweep) {
 }
 
 io::Json merged(io::Json base, const io::Json& overrides) {
-  for (const auto& [key, value] : overrides.items()) base[key] = value;
+  for (const auto& [key, value] : overrides.items())
+    base[key] = value;
   return base;
 }
 
@@ -128,7 +131,8 @@ Outcome run_scene(const Case& c, const io::Json& parameters, std::uint64_t seed)
   }
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t n = write(pipe, text.data() + done, text.size() - done);
-    if (n <= 0) break;
+    if (n <= 0)
+      break;
     done += static_cast<std::size_t>(n);
   }
   _exit(0);
@@ -137,9 +141,11 @@ Outcome run_scene(const Case& c, const io::Json& parameters, std::uint64_t seed)
 Outcome run_apart(const Case& c, const io::Json& parameters, std::uint64_t seed, int threads,
                   std::string& died) {
   int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  if (pipe(ends) != 0)
+    throw std::runtime_error("no pipe");
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no process");
+  if (child < 0)
+    throw std::runtime_error("no process");
   if (child == 0) {
     close(ends[0]);
     work_in_child(c, parameters, seed, threads, ends[1]);
@@ -172,12 +178,15 @@ std::string check_bounds(const Case& c, const Outcome& o, const Outcome& referen
                           name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
     const std::string plain = relative ? name.substr(0, name.size() - suffix.size()) : name;
     const auto found = o.value.find(plain);
-    if (found == o.value.end()) return false;
+    if (found == o.value.end())
+      return false;
     v = found->second;
-    if (relative) v /= reference.value.at(plain);
+    if (relative)
+      v /= reference.value.at(plain);
     return true;
   };
-  if (o.exit == 70) add("our own mistake: " + o.said);
+  if (o.exit == 70)
+    add("our own mistake: " + o.said);
   if (const auto found = o.value.find("finite"); found != o.value.end() && found->second != 1)
     add("not finite");
   bool exit_named = false;
@@ -195,14 +204,17 @@ std::string check_bounds(const Case& c, const Outcome& o, const Outcome& referen
     }
     double v = 0;
     if (!value_of(name, v)) {
-      if (o.exit != 3) add("no " + name); // refused input measures nothing
+      if (o.exit != 3)
+        add("no " + name); // refused input measures nothing
       continue;
     }
     const double low = bound.is_number() ? bound.get<double>() : bound.value("min", -1e300);
     const double high = bound.is_number() ? bound.get<double>() : bound.value("max", 1e300);
-    if (!(v >= low && v <= high)) add(name + " " + short_text(v));
+    if (!(v >= low && v <= high))
+      add(name + " " + short_text(v));
   }
-  if (!exit_named && o.exit != 0) add("exit " + std::to_string(o.exit) + " (" + o.said + ")");
+  if (!exit_named && o.exit != 0)
+    add("exit " + std::to_string(o.exit) + " (" + o.said + ")");
   return broken;
 }
 
@@ -219,7 +231,8 @@ Case read_case(const std::string& path) {
   c.elsewhere = node.at("elsewhere").string();
   c.invariant = node.at("invariant").string();
   c.scene = node.at("scene").string();
-  if (!scenes().count(c.scene)) node.at("scene").fail("hard.bad-scene"_id, "is no scene");
+  if (!scenes().count(c.scene))
+    node.at("scene").fail("hard.bad-scene"_id, "is no scene");
   c.parameters = json.value("parameters", io::Json::object());
   c.pass = json.value("pass", io::Json::object());
   c.reference = json.value("reference", io::Json());
@@ -228,8 +241,10 @@ Case read_case(const std::string& path) {
   c.cpu_s = node.number("cpu_s", 60);
   const io::Json ci = json.value("ci", io::Json::object());
   c.ci_seeds = ci.value("seeds", 1);
-  if (ci.contains("points")) c.ci_points = ci["points"].get<std::vector<std::size_t>>();
-  else c.ci_points = {0};
+  if (ci.contains("points"))
+    c.ci_points = ci["points"].get<std::vector<std::size_t>>();
+  else
+    c.ci_points = {0};
   for (std::size_t k : c.ci_points)
     if (k >= c.points.size())
       node.at("ci").fail("hard.bad-scene"_id, "names a point that the sweep does not have");
@@ -240,10 +255,12 @@ Case read_case(const std::string& path) {
       const bool same = std::all_of(at.items().begin(), at.items().end(), [&](const auto& item) {
         return p.overrides.value(item.key(), io::Json()) == item.value();
       });
-      if (same) p.failing = f.at("why").get<std::string>();
+      if (same)
+        p.failing = f.at("why").get<std::string>();
       met |= same;
     }
-    if (!met) node.at("failing").fail("hard.bad-scene"_id, "names no point of the sweep");
+    if (!met)
+      node.at("failing").fail("hard.bad-scene"_id, "names no point of the sweep");
   }
   return c;
 }
@@ -251,10 +268,12 @@ Case read_case(const std::string& path) {
 std::vector<Case> read_cases(const std::string& folder) {
   std::vector<std::string> paths;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
+    if (entry.path().extension() == ".json")
+      paths.push_back(entry.path().string());
   std::sort(paths.begin(), paths.end());
   std::vector<Case> cases;
-  for (const std::string& path : paths) cases.push_back(read_case(path));
+  for (const std::string& path : paths)
+    cases.push_back(read_case(path));
   return cases;
 }
 
@@ -265,7 +284,8 @@ Verdict run_point(const Case& c, const Point& point, std::uint64_t seed, int thr
   Outcome reference;
   if (v.broken.empty() && !c.reference.is_null())
     reference = run_apart(c, merged(parameters, c.reference), seed, threads, v.broken);
-  if (v.broken.empty()) v.broken = check_bounds(c, v.outcome, reference);
+  if (v.broken.empty())
+    v.broken = check_bounds(c, v.outcome, reference);
   return v;
 }
 

@@ -112,17 +112,26 @@ Options parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string a = argv[i];
     auto next = [&] {
-      if (i + 1 == argc) throw Error(ErrorKind::USAGE, "hard.option"_id, "", a, "needs a value");
+      if (i + 1 == argc)
+        throw Error(ErrorKind::USAGE, "hard.option"_id, "", a, "needs a value");
       return std::string(argv[++i]);
     };
-    if (a == "--cases") o.cases = next();
-    else if (a == "--only") o.only = next();
-    else if (a == "--seeds") o.seeds = std::stoi(next());
-    else if (a == "--jobs") o.jobs = std::stoi(next());
-    else if (a == "--table") o.table = next();
-    else if (a == "--hashes") o.hashes = next();
-    else if (a == "--kept") o.kept = next();
-    else if (a == "-v") o.verbose = true;
+    if (a == "--cases")
+      o.cases = next();
+    else if (a == "--only")
+      o.only = next();
+    else if (a == "--seeds")
+      o.seeds = std::stoi(next());
+    else if (a == "--jobs")
+      o.jobs = std::stoi(next());
+    else if (a == "--table")
+      o.table = next();
+    else if (a == "--hashes")
+      o.hashes = next();
+    else if (a == "--kept")
+      o.kept = next();
+    else if (a == "-v")
+      o.verbose = true;
     else
       throw Error(ErrorKind::USAGE, "hard.option"_id, "", a, "is not known",
                   "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] "
@@ -135,17 +144,20 @@ std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
     text.replace(at, 1, "\\|");
   for (char& ch : text)
-    if (ch == '\n') ch = ' ';
+    if (ch == '\n')
+      ch = ' ';
   return text;
 }
 
 int main_of(const Options& o) {
   std::vector<Case> cases;
   for (Case& c : read_cases(o.cases))
-    if (o.only.empty() || c.file.find(o.only) != std::string::npos) cases.push_back(std::move(c));
+    if (o.only.empty() || c.file.find(o.only) != std::string::npos)
+      cases.push_back(std::move(c));
   std::vector<std::pair<const Case*, const Point*>> points;
   for (const Case& c : cases)
-    for (const Point& p : c.points) points.emplace_back(&c, &p);
+    for (const Point& p : c.points)
+      points.emplace_back(&c, &p);
 
   const Kept kept(o.kept);
   // Workers take every jobs-th point and leave their results in a file each.
@@ -168,13 +180,13 @@ int main_of(const Options& o) {
                                {"broken", r.broken},
                                {"cpu", r.cpu_s},
                                {"hashes", r.hashes}};
-        std::fprintf(files[static_cast<std::size_t>(w)], "%s\n",
+        std::fprintf(files[w], "%s\n",
                      line.dump(-1, ' ', true, io::Json::error_handler_t::replace).c_str());
         std::fprintf(stderr, "%zu/%zu %s [%s]: %d of %d%s\n", i + 1, points.size(), c->file.c_str(),
                      p->name.c_str(), r.held, r.runs,
                      r.broken.empty() ? "" : (", " + r.broken).c_str());
       }
-      std::fflush(files[static_cast<std::size_t>(w)]);
+      std::fflush(files[w]);
       _exit(0);
     }
     workers.push_back(pid);
@@ -217,11 +229,13 @@ int main_of(const Options& o) {
         failing << "- **" << c.name << "**" << (p.name.empty() ? "" : " at " + p.name) << ": "
                 << r.held << " of " << r.runs << " hold; " << cell(r.broken)
                 << (p.failing.empty() ? " **(not listed)**" : ". " + p.failing) << "\n";
-        if (p.failing.empty()) ++wrong;
+        if (p.failing.empty())
+          ++wrong;
       } else if (!p.failing.empty()) {
         std::printf("%s [%s] is listed as failing and holds: take it off the list\n",
                     c.file.c_str(), p.name.c_str());
-        if (o.seeds == 0) ++wrong;
+        if (o.seeds == 0)
+          ++wrong;
       }
       if (!r.same_bytes) {
         std::printf("%s [%s]: other bytes with two threads\n", c.file.c_str(), p.name.c_str());
@@ -234,7 +248,8 @@ int main_of(const Options& o) {
     char seconds[16];
     std::snprintf(seconds, sizeof seconds, "%.1f", cpu);
     std::string same_bytes = "-";
-    if (bytes) same_bytes = same ? "yes" : "**no**";
+    if (bytes)
+      same_bytes = same ? "yes" : "**no**";
     table << "| " << cell(c.name) << " | " << cell(c.elsewhere) << " | " << cell(c.invariant)
           << " | " << good << " of " << n << " | " << same_bytes << " | " << seconds << " |\n";
   }

@@ -102,7 +102,8 @@ const std::vector<Choice>& choices(const std::string& scene) {
       {"spoil", {"inverted", "coincident_seams", "duplicate_face"}},
       {"garment_scale", {0.2, 3}},
   };
-  if (scene == "sheet") return sheet;
+  if (scene == "sheet")
+    return sheet;
   return scene == "contact" ? contact : drape;
 }
 
@@ -111,23 +112,30 @@ Case make_scene(std::uint64_t number) {
   Case c;
   const double kind = random.uniform();
   c.scene = kind < 0.7 ? "contact" : "drape";
-  if (kind < 0.45) c.scene = "sheet";
+  if (kind < 0.45)
+    c.scene = "sheet";
   c.file = "soak-" + std::to_string(number);
   c.name = "Random scene " + std::to_string(number);
   c.parameters = io::Json::object();
   for (const Choice& choice : choices(c.scene))
     if (random.uniform() < 0.25)
       c.parameters[choice.parameter] = choice.values[random.next() % choice.values.size()];
-  if (c.scene == "sheet") c.parameters["steps"] = 25;
-  if (c.scene == "contact") c.parameters["duration_s"] = 0.5;
+  if (c.scene == "sheet")
+    c.parameters["steps"] = 25;
+  if (c.scene == "contact")
+    c.parameters["duration_s"] = 0.5;
   if (c.scene == "drape") {
     c.parameters["max_steps"] = 300;
-    if (!c.parameters.contains("body")) c.parameters["body"] = "figure";
-    if (!c.parameters.contains("edge_m")) c.parameters["edge_m"] = 0.06;
+    if (!c.parameters.contains("body"))
+      c.parameters["body"] = "figure";
+    if (!c.parameters.contains("edge_m"))
+      c.parameters["edge_m"] = 0.06;
   }
   c.pass = {{"exit", {0, 3, 4}}, {"says", "."}};
-  if (c.scene == "drape") c.pass["honest"] = 1;
-  if (c.scene == "sheet") c.pass["indefinite"] = 0;
+  if (c.scene == "drape")
+    c.pass["honest"] = 1;
+  if (c.scene == "sheet")
+    c.pass["indefinite"] = 0;
   c.cpu_s = 60;
   c.points = {{io::Json::object(), "", ""}};
   return c;
@@ -173,9 +181,12 @@ int main_of(int argc, char** argv) {
   std::string out;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string a = argv[i];
-    if (a == "--from") from = std::stoull(argv[i + 1]);
-    else if (a == "--count") count = std::stoull(argv[i + 1]);
-    else if (a == "--out") out = argv[i + 1];
+    if (a == "--from")
+      from = std::stoull(argv[i + 1]);
+    else if (a == "--count")
+      count = std::stoull(argv[i + 1]);
+    else if (a == "--out")
+      out = argv[i + 1];
     else
       throw Error(ErrorKind::USAGE, "hard.option"_id, "", a, "is not known",
                   "run-soak [--from K] [--count N] [--out DIR]");
@@ -199,13 +210,15 @@ int main_of(int argc, char** argv) {
                   static_cast<unsigned long long>(failed));
       std::fflush(stdout);
     }
-    if (v.broken.empty()) continue;
+    if (v.broken.empty())
+      continue;
     ++failed;
     const Case small = minimise(c, k);
     std::printf("scene %llu fails: %s\n  %s %s\n", static_cast<unsigned long long>(k),
                 v.broken.c_str(), small.scene.c_str(), small.parameters.dump().c_str());
     std::fflush(stdout);
-    if (!out.empty()) keep(small, v.broken, out);
+    if (!out.empty())
+      keep(small, v.broken, out);
   }
   std::printf("%llu scenes from %llu: %llu fail, %llu differ with two threads; %llu refused (exit "
               "3), %llu not at rest within their steps (exit 4); longest "

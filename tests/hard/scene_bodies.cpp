@@ -41,7 +41,7 @@ TriangleMesh column(double radius, double low, double high, int fineness, const 
 /// Prism along z with a convex section in x, y, counter-clockwise.
 TriangleMesh prism(const std::vector<Vec2>& section, double length, int cells) {
   TriangleMesh m;
-  const int n = static_cast<int>(section.size());
+  const int n = std::ssize(section);
   for (int k = 0; k <= cells; ++k)
     for (const Vec2& q : section)
       m.positions.emplace_back(q.x(), q.y(), length * (static_cast<double>(k) / cells - 0.5));
@@ -64,7 +64,8 @@ TriangleMesh make_body_mesh(const Parameters& p) {
   const std::string shape = p.text("body", "sphere");
   const double radius = p.number("radius_m", 0.1), gap = p.number("gap_m", 0);
   const int fineness = p.whole("fineness", 16);
-  if (shape == "sphere") return sphere(radius, fineness, Vec3::Zero());
+  if (shape == "sphere")
+    return sphere(radius, fineness, Vec3::Zero());
   if (shape == "spheres") {
     TriangleMesh m = sphere(radius, fineness, Vec3(0, 0, radius + 0.5 * gap));
     append(m, sphere(radius, fineness, Vec3(0, 0, -radius - 0.5 * gap)));
@@ -110,7 +111,8 @@ TriangleMesh make_body_mesh(const Parameters& p) {
       }
     return m;
   }
-  if (shape == "none") return {};
+  if (shape == "none")
+    return {};
   throw input_error("hard.bad-scene"_id, "", "body", shape + " is no body of these scenes");
 }
 
@@ -131,7 +133,8 @@ body::Body make_body(TriangleMesh mesh) {
 void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
   Random random(seed + 1);
   auto& f = mesh.triangles;
-  if (f.empty()) return; // nothing to damage
+  if (f.empty())
+    return; // nothing to damage
   if (kind == "holes") {
     for (int k = 0; k < 12 && !f.empty(); ++k) {
       const Vec3 middle = mesh.positions[f[random.next() % f.size()][0]];
@@ -144,19 +147,22 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
     jitter(mesh.positions, 0.002, seed + 1);
   } else if (kind == "flipped") {
     for (Triangle& t : f)
-      if (random.uniform() < 0.3) std::swap(t[1], t[2]);
+      if (random.uniform() < 0.3)
+        std::swap(t[1], t[2]);
   } else if (kind == "inside_out") {
-    for (Triangle& t : f) std::swap(t[1], t[2]);
+    for (Triangle& t : f)
+      std::swap(t[1], t[2]);
   } else if (kind == "debris") {
     for (int k = 0; k < 30; ++k) {
       const Vec3 at = random_point(random, {-0.6, 0, 0.4}, {0.6, 1.3, 0.6});
-      const int base = static_cast<int>(mesh.positions.size());
+      const int base = std::ssize(mesh.positions);
       for (int c = 0; c < 3; ++c)
         mesh.positions.push_back(at + 0.01 * random_point(random, Vec3::Zero(), Vec3::Ones()));
       f.push_back({base, base + 1, base + 2});
     }
   } else if (kind == "duplicates") {
-    for (std::size_t k = 0, n = f.size(); k < n; k += 7) f.push_back(f[k]);
+    for (std::size_t k = 0, n = f.size(); k < n; k += 7)
+      f.push_back(f[k]);
   } else if (kind == "fins") { // three triangles on one edge
     for (std::size_t k = 0, n = f.size(); k < n; k += 40) {
       const Vec3 middle = (mesh.positions[f[k][0]] + mesh.positions[f[k][1]]) * 0.5;
@@ -166,13 +172,15 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
   } else if (kind == "cracks") { // every triangle by itself
     TriangleMesh apart;
     for (const Triangle& t : f) {
-      const int base = static_cast<int>(apart.positions.size());
-      for (int k = 0; k < 3; ++k) apart.positions.push_back(mesh.positions[t[k]]);
+      const int base = std::ssize(apart.positions);
+      for (int k = 0; k < 3; ++k)
+        apart.positions.push_back(mesh.positions[t[k]]);
       apart.triangles.push_back({base, base + 1, base + 2});
     }
     mesh = apart;
   } else if (kind == "zero_area") {
-    for (std::size_t k = 0, n = f.size(); k < n; k += 11) f.push_back({f[k][0], f[k][0], f[k][1]});
+    for (std::size_t k = 0, n = f.size(); k < n; k += 11)
+      f.push_back({f[k][0], f[k][0], f[k][1]});
   } else if (kind == "nan") {
     mesh.positions[mesh.positions.size() / 2].y() = std::nan("");
   } else if (kind != "none") {

@@ -30,12 +30,14 @@ Sheet make_sheet(const std::vector<double>& widths, const std::vector<double>& h
   s.columns = static_cast<int>(widths.size()) + 1;
   s.rows = static_cast<int>(heights.size()) + 1;
   std::vector<double> u{0}, v{0};
-  for (double w : widths) u.push_back(u.back() + w);
-  for (double h : heights) v.push_back(v.back() + h);
+  for (double w : widths)
+    u.push_back(u.back() + w);
+  for (double h : heights)
+    v.push_back(v.back() + h);
   std::vector<Vec2> flat;
   std::vector<cloth::RestTriangle> triangles;
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-    const int base = static_cast<int>(s.x.size());
+    const int base = std::ssize(s.x);
     for (double b : v)
       for (double a : u) {
         flat.emplace_back(a, b);
@@ -75,30 +77,40 @@ cloth::Fabric fabric_of(const Parameters& p) {
 void add_models(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh, const Parameters& p) {
   const std::string membrane = p.text("membrane", "springs"),
                     bending = p.text("bending", "isometric");
-  if (membrane == "fem") solver.emplace<cloth::MembraneEffect>(mesh);
-  else if (membrane == "triangles") solver.emplace<cloth::TriangleStretchEffect>(mesh);
-  else solver.emplace<cloth::EdgeSpringEffect>(mesh);
-  if (membrane != "fem") solver.emplace<cloth::ShearEffect>(mesh);
-  if (bending == "dihedral") solver.emplace<cloth::DihedralBendingEffect>(mesh);
-  else if (bending != "none") solver.emplace<cloth::BendingEffect>(mesh);
+  if (membrane == "fem")
+    solver.emplace<cloth::MembraneEffect>(mesh);
+  else if (membrane == "triangles")
+    solver.emplace<cloth::TriangleStretchEffect>(mesh);
+  else
+    solver.emplace<cloth::EdgeSpringEffect>(mesh);
+  if (membrane != "fem")
+    solver.emplace<cloth::ShearEffect>(mesh);
+  if (bending == "dihedral")
+    solver.emplace<cloth::DihedralBendingEffect>(mesh);
+  else if (bending != "none")
+    solver.emplace<cloth::BendingEffect>(mesh);
 }
 
 void jitter(std::vector<Vec3>& x, double amount, std::uint64_t seed) {
-  if (seed == 0 || amount == 0) return;
+  if (seed == 0 || amount == 0)
+    return;
   Random random(seed);
   for (Vec3& p : x)
-    for (int k = 0; k < 3; ++k) p[k] += random.uniform(-amount, amount);
+    for (int k = 0; k < 3; ++k)
+      p[k] += random.uniform(-amount, amount);
 }
 
 Vec3 random_point(Random& random, const Vec3& low, const Vec3& high) {
   Vec3 p;
-  for (int k : {2, 1, 0}) p[k] = random.uniform(low[k], high[k]);
+  for (int k : {2, 1, 0})
+    p[k] = random.uniform(low[k], high[k]);
   return p;
 }
 
 void measure_cloth(Outcome& o, const cloth::ClothMesh& mesh, const std::vector<Vec3>& x) {
   o.value["finite"] = std::all_of(x.begin(), x.end(), [](const Vec3& p) { return p.allFinite(); });
-  if (o.value["finite"] == 0) return;
+  if (o.value["finite"] == 0)
+    return;
   std::vector<double> strain, stretch;
   for (const cloth::EdgeSpring& s : mesh.springs) {
     const double e = (x[s.j] - x[s.i]).norm() / s.rest_length - 1;
@@ -112,7 +124,8 @@ void measure_cloth(Outcome& o, const cloth::ClothMesh& mesh, const std::vector<V
   o.value["strain_max"] = strain.back();
   o.value["stretch_p99"] = stretch[p99];
   double extent = 0;
-  for (const Vec3& q : x) extent = std::max(extent, q.cwiseAbs().maxCoeff());
+  for (const Vec3& q : x)
+    extent = std::max(extent, q.cwiseAbs().maxCoeff());
   o.value["extent_m"] = extent;
   const std::vector<Triangle> triangles = mesh.particle_triangles();
   o.value["crossings"] = static_cast<double>(
@@ -123,14 +136,16 @@ void fingerprint(Outcome& o, const std::vector<Vec3>& x) {
   o.hash = io::sha256({reinterpret_cast<const char*>(x.data()), x.size() * sizeof(Vec3)});
   std::vector<long> cells;
   for (const Vec3& p : x)
-    for (int k = 0; k < 3; ++k) cells.push_back(std::isfinite(p[k]) ? std::lround(p[k] * 1e5) : 0);
+    for (int k = 0; k < 3; ++k)
+      cells.push_back(std::isfinite(p[k]) ? std::lround(p[k] * 1e5) : 0);
   o.quantised =
       io::sha256({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(long)});
 }
 
 double potential(const cloth::ClothSolver& solver, const std::vector<Vec3>& x) {
   double sum = 0;
-  for (const auto& e : solver.effects()) sum += e->energy(x);
+  for (const auto& e : solver.effects())
+    sum += e->energy(x);
   return sum;
 }
 

@@ -30,10 +30,12 @@ std::vector<cloth::Pin> make_pins(const Sheet& s, const Parameters& p) {
   std::vector<cloth::Pin> pins;
   auto pin = [&](int i, const Vec3& by) { pins.push_back({i, s.x[i] + by, k, Vec3::Zero()}); };
   if (which == "top")
-    for (int c = 0; c < s.columns; ++c) pin(s.at(c, 0), Vec3::Zero());
+    for (int c = 0; c < s.columns; ++c)
+      pin(s.at(c, 0), Vec3::Zero());
   if (which == "left")
     for (int r = 0; r < s.rows; ++r)
-      for (int c = 0; c < 2; ++c) pin(s.at(c, r), Vec3::Zero());
+      for (int c = 0; c < 2; ++c)
+        pin(s.at(c, r), Vec3::Zero());
   if (which == "corners" || which == "top_corners") {
     pin(s.at(0, 0), Vec3(-pull, 0, 0));
     pin(s.at(s.columns - 1, 0), Vec3(pull, 0, 0));
@@ -57,16 +59,22 @@ void spoil(Sheet& s, const Parameters& p, std::uint64_t seed) {
   const Vec3 middle = s.x[s.at(s.columns / 2, s.rows / 2)];
   for (Vec3& q : s.x) {
     q = middle + scale * (q - middle);
-    if (start == "mirrored") q.x() = 2 * middle.x() - q.x();
-    if (start == "point") q = middle;
-    if (crumple > 0) q += random_point(random, Vec3::Constant(-crumple), Vec3::Constant(crumple));
+    if (start == "mirrored")
+      q.x() = 2 * middle.x() - q.x();
+    if (start == "point")
+      q = middle;
+    if (crumple > 0)
+      q += random_point(random, Vec3::Constant(-crumple), Vec3::Constant(crumple));
   }
-  if (start == "far") s.x[s.at(s.columns / 2, s.rows / 2)] += Vec3(0, 100, 0);
-  if (start == "nan") s.x[s.at(s.columns / 2, s.rows / 2)].y() = std::nan("");
+  if (start == "far")
+    s.x[s.at(s.columns / 2, s.rows / 2)] += Vec3(0, 100, 0);
+  if (start == "nan")
+    s.x[s.at(s.columns / 2, s.rows / 2)].y() = std::nan("");
 }
 
 std::vector<double> cells(int n, double length, double thin) {
-  if (thin <= 0) return std::vector<double>(n, length / n);
+  if (thin <= 0)
+    return std::vector<double>(n, length / n);
   std::vector<double> out(n, (length - thin) / (n - 1));
   out[n / 2] = thin;
   return out;
@@ -96,7 +104,8 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
   cloth::ClothSolver solver(s.mesh, s.x);
   add_models(solver, s.mesh, p);
   const Vec3 gravity(0, -p.number("gravity_m_s2", 9.80665), 0);
-  if (gravity.norm() > 0) solver.emplace<cloth::GravityEffect>(s.mesh, gravity);
+  if (gravity.norm() > 0)
+    solver.emplace<cloth::GravityEffect>(s.mesh, gravity);
   cloth::PinsEffect* held = pins.empty() ? nullptr : &solver.emplace<cloth::PinsEffect>(pins);
   if (const double wind = p.number("wind_m_s", 0); wind != 0) {
     cloth::WindOptions options;
@@ -127,19 +136,23 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
   const int bad_step = p.whole("nan_force_step", -1);
   Watch watch(solver, o.inertia);
   for (int k = 0; k < steps; ++k) {
-    if (k == bad_step) solver.emplace<BadForce>(s.at(s.columns / 2, s.rows / 2));
+    if (k == bad_step)
+      solver.emplace<BadForce>(s.at(s.columns / 2, s.rows / 2));
     if (held && swing != 0) {
       swung += (k / 15 % 2 ? -1 : 1) * swing * o.h;
       for (std::size_t i = 0; i < pins.size(); ++i)
         held->set_target(i, pins[i].target + Vec3(0, 0, swung));
     }
     const std::vector<Vec3> before = solver.x();
-    if (!watch.step(o)) break;
-    if (!adapt) continue;
+    if (!watch.step(o))
+      break;
+    if (!adapt)
+      continue;
     double move = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       move = std::max(move, (solver.x()[i] - before[i]).norm());
-    if (o.h > 0.2 && move / o.h < 1e-5) break;
+    if (o.h > 0.2 && move / o.h < 1e-5)
+      break;
     o.h = move < 0.005 ? std::min(1.3 * o.h, 0.5) : std::max(0.8 * o.h, 0.005);
   }
   Outcome out;
@@ -168,7 +181,8 @@ Outcome bending_scene(const Parameters& p, std::uint64_t seed) {
     Sheet s = make_sheet(cells(16, 0.16, 0), cells(3, 0.03, 0), f, false, Vec3(0, 1, 0));
     std::vector<cloth::Pin> pins;
     for (int r = 0; r < s.rows; ++r)
-      for (int c = 0; c < 2; ++c) pins.push_back({s.at(c, r), s.x[s.at(c, r)], 1e4, Vec3::Zero()});
+      for (int c = 0; c < 2; ++c)
+        pins.push_back({s.at(c, r), s.x[s.at(c, r)], 1e4, Vec3::Zero()});
     jitter(s.x, p.number("jitter_m", 1e-4), seed);
     cloth::ClothSolver solver(s.mesh, s.x);
     add_models(solver, s.mesh, p);
@@ -178,12 +192,15 @@ Outcome bending_scene(const Parameters& p, std::uint64_t seed) {
     o.cg_tolerance = 1e-4;
     o.largest_move_m = 0.02;
     Watch watch(solver, 0);
-    for (int k = 0; k < 250 && watch.step(o); ++k) o.h = std::min(1.1 * o.h, 0.3);
+    for (int k = 0; k < 250 && watch.step(o); ++k)
+      o.h = std::min(1.1 * o.h, 0.3);
     measure_cloth(out, s.mesh, solver.x());
     double drop = 0;
-    for (int r = 0; r < s.rows; ++r) drop += (1 - solver.x()[s.at(s.columns - 1, r)].y()) / s.rows;
+    for (int r = 0; r < s.rows; ++r)
+      drop += (1 - solver.x()[s.at(s.columns - 1, r)].y()) / s.rows;
     falls = falls && drop < before && drop > 0;
-    if (bend < 2e-7) out.value["drop_soft_m"] = drop;
+    if (bend < 2e-7)
+      out.value["drop_soft_m"] = drop;
     out.value["drop_stiff_m"] = before = drop;
     all.insert(all.end(), solver.x().begin(), solver.x().end());
   }

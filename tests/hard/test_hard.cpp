@@ -48,7 +48,8 @@ TEST_P(Hard, holds) {
       listed += where + (broken.empty() ? " holds here though it is listed as failing; "
                                         : " is listed as failing: " + broken + "; ");
     }
-  if (!listed.empty() && !HasFailure()) GTEST_SKIP() << listed;
+  if (!listed.empty() && !HasFailure())
+    GTEST_SKIP() << listed;
 }
 
 INSTANTIATE_TEST_SUITE_P(cases, Hard, testing::Range<std::size_t>(0, all_cases().size()),

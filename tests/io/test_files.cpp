@@ -16,7 +16,8 @@ static ErrorKind kind_of(const std::function<void()>& deed, std::string* message
   try {
     deed();
   } catch (const Error& e) {
-    if (message) *message = e.what();
+    if (message)
+      *message = e.what();
     return e.kind();
   }
   ADD_FAILURE() << "nothing was thrown";

@@ -31,11 +31,14 @@ constexpr const char* OBJ = "# a flag\r\n"
 
 std::vector<Vec3> shifted(const std::vector<Vec3>& points, const Vec3& by) {
   std::vector<Vec3> out;
-  for (const Vec3& p : points) out.push_back(p + by);
+  for (const Vec3& p : points)
+    out.push_back(p + by);
   return out;
 }
 
-std::vector<Mat3> unturned(std::size_t n) { return std::vector<Mat3>(n, Mat3::Identity()); }
+std::vector<Mat3> unturned(std::size_t n) {
+  return std::vector<Mat3>(n, Mat3::Identity());
+}
 
 std::string refused(const std::string& bytes, const std::string& format) {
   try {
@@ -46,13 +49,16 @@ std::string refused(const std::string& bytes, const std::string& format) {
   return {};
 }
 
-void put(std::string& out, float x) { out.append(reinterpret_cast<const char*>(&x), 4); }
+void put(std::string& out, float x) {
+  out.append(reinterpret_cast<const char*>(&x), 4);
+}
 
 /// A GLB of one square that its node moves by (0, 1, 0) and scales by 2.
 std::string square_glb(const std::string& node = "") {
   std::string binary;
   for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
-    for (int k = 0; k < 3; ++k) put(binary, static_cast<float>(p[k]));
+    for (int k = 0; k < 3; ++k)
+      put(binary, static_cast<float>(p[k]));
   for (int i = 0; i < 4; ++i) {
     put(binary, 0);
     put(binary, 0);
@@ -144,7 +150,8 @@ TEST(MeshFile, a_binary_ply_of_either_order_keeps_what_it_does_not_know) {
                         "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     const auto put_swapped = [&](const void* data, std::size_t n) {
       std::string raw(static_cast<const char*>(data), n);
-      if (big) raw = std::string(raw.rbegin(), raw.rend());
+      if (big)
+        raw = std::string(raw.rbegin(), raw.rend());
       bytes += raw;
     };
     for (int i = 0; i < 4; ++i) {
@@ -153,7 +160,8 @@ TEST(MeshFile, a_binary_ply_of_either_order_keeps_what_it_does_not_know) {
       bytes += static_cast<char>(10 + i);
     }
     bytes += '\4';
-    for (const std::int32_t v : {0, 1, 3, 2}) put_swapped(&v, 4);
+    for (const std::int32_t v : {0, 1, 3, 2})
+      put_swapped(&v, 4);
     const MeshFile file = parse_mesh_file(bytes, "ply", "q.ply");
     EXPECT_EQ(file.faces, (std::vector<std::vector<int>>{{0, 1, 3, 2}}));
     EXPECT_EQ(moved_mesh_file(file, file.positions, unturned(4)), bytes);

@@ -85,7 +85,8 @@ std::string sample_ply() {
   std::string text = "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float "
                      "y\nproperty float z\nelement face 5\nproperty list uchar int "
                      "vertex_indices\nend_header\n";
-  for (int i = 0; i < 12; ++i) text += std::to_string(i) + " " + std::to_string(i % 3) + " 0.5\n";
+  for (int i = 0; i < 12; ++i)
+    text += std::to_string(i) + " " + std::to_string(i % 3) + " 0.5\n";
   for (int i = 0; i < 5; ++i)
     text +=
         "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
@@ -99,10 +100,12 @@ std::string sample_binary_ply() {
   auto append = [&](auto value) {
     text.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  for (int i = 0; i < 24; ++i) append(static_cast<float>(i) * 0.1f);
+  for (int i = 0; i < 24; ++i)
+    append(static_cast<float>(i) * 0.1f);
   for (int i = 0; i < 4; ++i) {
     append(static_cast<unsigned char>(3));
-    for (int k = 0; k < 3; ++k) append(i + k);
+    for (int k = 0; k < 3; ++k)
+      append(i + k);
   }
   return text;
 }
@@ -114,7 +117,8 @@ std::string sample_binary_stl() {
   };
   append(std::uint32_t{6});
   for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 12; ++k) append(static_cast<float>(i * 12 + k) * 0.01f);
+    for (int k = 0; k < 12; ++k)
+      append(static_cast<float>(i * 12 + k) * 0.01f);
     append(std::uint16_t{0});
   }
   return text;
@@ -129,9 +133,11 @@ std::string sample_ascii_stl() {
 }
 
 void check_mesh(const TriangleMesh& mesh) {
-  for (const Vec3& p : mesh.positions) ASSERT_TRUE(p.allFinite());
+  for (const Vec3& p : mesh.positions)
+    ASSERT_TRUE(p.allFinite());
   for (const Triangle& t : mesh.triangles)
-    for (const int v : t) ASSERT_TRUE(v >= 0 && v < static_cast<int>(mesh.positions.size()));
+    for (const int v : t)
+      ASSERT_TRUE(v >= 0 && v < std::ssize(mesh.positions));
 }
 
 constexpr int N = 4000;
@@ -143,7 +149,8 @@ TEST(Mutations, obj_is_read_with_sound_indices_or_refused) {
     const io::ObjMesh mesh = io::parse_obj(text, "sample");
     check_mesh({mesh.positions, mesh.triangles});
     for (const Triangle& t : mesh.texture_triangles)
-      for (const int v : t) ASSERT_TRUE(v >= -1 && v < static_cast<int>(mesh.texture.size()));
+      for (const int v : t)
+        ASSERT_TRUE(v >= -1 && v < std::ssize(mesh.texture));
   });
   EXPECT_GT(n, N / 10);
   EXPECT_LT(n, N);

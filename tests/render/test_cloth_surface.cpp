@@ -33,7 +33,7 @@ std::size_t count_crossings(const std::vector<DrawMesh>& meshes) {
   std::vector<Vec3> x;
   std::vector<Triangle> triangles;
   for (const DrawMesh& mesh : meshes) {
-    const int first = static_cast<int>(x.size());
+    const int first = std::ssize(x);
     x.insert(x.end(), mesh.positions.begin(), mesh.positions.end());
     for (const Triangle& t : mesh.triangles)
       triangles.push_back({first + t[0], first + t[1], first + t[2]});
@@ -59,7 +59,8 @@ TEST(Cloth, cuts_of_a_mesh_without_a_pattern_are_no_seams) {
   g.strain_unknown = true;
   const DrawMesh mesh = cloth_mesh(g);
   EXPECT_EQ(mesh.lines.size(), border);
-  for (const char is_hem : mesh.is_hem) EXPECT_TRUE(is_hem);
+  for (const char is_hem : mesh.is_hem)
+    EXPECT_TRUE(is_hem);
 }
 
 TEST(Cloth, smoothing_keeps_flat_cloth_flat_and_hems_at_its_border) {
@@ -120,7 +121,8 @@ TEST(Cloth, smoothing_moves_no_cloth_through_a_body) {
   // Hollow cloth: its smooth surface lies inwards of the chords, where the body is.
   const garment::Garment body = make_arc(64, 0.0981), cloth = make_arc(8, 0.1);
   std::vector<DrawMesh> meshes = {cloth_mesh(cloth), as_obstacle(body)};
-  for (Vec3& n : meshes[0].normals) n = -n;
+  for (Vec3& n : meshes[0].normals)
+    n = -n;
   const std::size_t before = count_crossings(meshes);
   smooth_cloth(meshes);
   EXPECT_EQ(before, 0u);

@@ -23,7 +23,7 @@ namespace {
 Scene scene_of(std::vector<garment::Garment> garments) {
   Scene scene;
   for (garment::Garment& g : garments) {
-    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.garment_mesh.push_back(std::ssize(scene.meshes));
     scene.meshes.push_back(cloth_mesh(g));
     scene.garments.push_back(std::move(g));
   }
@@ -43,7 +43,8 @@ TEST(Maps, strain_along_warp_weft_and_bias_is_that_of_a_homogeneous_stretch) {
     const Legend legend = apply_map(scene, map);
     EXPECT_TRUE(legend.diverging);
     EXPECT_EQ(legend.steps.size(), 8u);
-    for (double v : scene.meshes[0].values) EXPECT_NEAR(v, expected, 1e-9);
+    for (double v : scene.meshes[0].values)
+      EXPECT_NEAR(v, expected, 1e-9);
   }
 }
 
@@ -57,8 +58,10 @@ TEST(Maps, strain_is_compared_with_the_limit_of_its_own_fabric) {
   Scene scene = scene_of({soft, stiff});
   const Legend legend = apply_map(scene, Map::LIMIT);
   EXPECT_FALSE(legend.diverging);
-  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, 2, 1e-9);
-  for (double v : scene.meshes[1].values) EXPECT_NEAR(v, 100, 1e-9);
+  for (double v : scene.meshes[0].values)
+    EXPECT_NEAR(v, 2, 1e-9);
+  for (double v : scene.meshes[1].values)
+    EXPECT_NEAR(v, 100, 1e-9);
 }
 
 TEST(Maps, edited_rest_lengths_count_in_strain) {
@@ -66,7 +69,8 @@ TEST(Maps, edited_rest_lengths_count_in_strain) {
   g.rest_scale.assign(g.panels.triangles.size(), {2, 2, 2});
   Scene scene = scene_of({g});
   apply_map(scene, Map::WARP);
-  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, -50, 1e-9);
+  for (double v : scene.meshes[0].values)
+    EXPECT_NEAR(v, -50, 1e-9);
 }
 
 TEST(Maps, two_drapes_of_different_meshes_differ_by_how_far_one_was_moved) {
@@ -91,10 +95,13 @@ TEST(Maps, gap_and_penetration_are_signed_distances_to_the_skin) {
   body.face_part.assign(12, body::Part::TORSO);
   scene.body = body;
   apply_map(scene, Map::GAP);
-  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, 20, 1e-9);
-  for (Vec3& p : scene.garments[0].position) p.z() = -0.003;
+  for (double v : scene.meshes[0].values)
+    EXPECT_NEAR(v, 20, 1e-9);
+  for (Vec3& p : scene.garments[0].position)
+    p.z() = -0.003;
   const Legend legend = apply_map(scene, Map::PENETRATION);
-  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, 3, 1e-9);
+  for (double v : scene.meshes[0].values)
+    EXPECT_NEAR(v, 3, 1e-9);
   EXPECT_EQ(legend.high, 4);
 }
 
@@ -168,7 +175,8 @@ TEST(PatternView, a_seam_that_goes_over_two_panels_is_drawn_on_each_and_not_betw
     for (const Triangle& t : one.panels.triangles)
       three.panels.triangles.push_back(
           {t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
-    for (int i : one.particle_of) three.particle_of.push_back(i + info.first_vertex);
+    for (int i : one.particle_of)
+      three.particle_of.push_back(i + info.first_vertex);
     three.panels.panels.push_back(info);
     three.panels.pattern.insert(three.panels.pattern.end(), one.panels.pattern.begin(),
                                 one.panels.pattern.end());
@@ -305,7 +313,8 @@ TEST(Show, a_level_cut_of_a_box_is_as_long_as_its_girth) {
   box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   double length = 0;
-  for (const auto& [a, b] : cut_level(box, 0.37, {})) length += (b - a).norm();
+  for (const auto& [a, b] : cut_level(box, 0.37, {}))
+    length += (b - a).norm();
   EXPECT_NEAR(length, 0.6, 1e-12);
   EXPECT_THROW(parse_show("landmark"), Error);
 }

@@ -10,7 +10,9 @@
 #include <map>
 
 #if defined(__SANITIZE_ADDRESS__) // OpenGL forgets some of what it made, and EGL unloads who did
-extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
+extern "C" const char* __asan_default_options() {
+  return "detect_leaks=0";
+}
 #endif
 
 using namespace sloper;
@@ -84,7 +86,8 @@ TEST(Render, the_number_of_threads_changes_no_byte) {
 }
 
 TEST(Render, every_built_in_context_draws_the_same_picture) {
-  if (built_contexts().size() < 2) GTEST_SKIP() << "only one context was built in";
+  if (built_contexts().size() < 2)
+    GTEST_SKIP() << "only one context was built in";
   const io::Image osmesa = draw_ball(0xffffff);
   io::Image egl;
   try {
@@ -116,14 +119,16 @@ TEST(Camera, a_point_goes_where_the_picture_shows_it) {
 
 TEST(Camera, views_that_share_a_scale_show_all_from_all_sides) {
   std::vector<DrawMesh> meshes{make_ball()};
-  for (Vec3& p : meshes[0].positions) p.x() *= 4; // arms out
+  for (Vec3& p : meshes[0].positions)
+    p.x() *= 4; // arms out
   std::vector<std::optional<CameraOptions>> views = {named_view("front"), named_view("left"),
                                                      std::nullopt, named_view("iso")};
   share_scale(meshes, views, 0.75, 0, 0);
   EXPECT_FALSE(views[2]);
   double widest = 0;
   for (const auto& view : views) {
-    if (!view) continue;
+    if (!view)
+      continue;
     const Camera camera = frame_scene(meshes, *view, 0.75);
     EXPECT_NEAR(camera.half_height, frame_scene(meshes, *views[0], 0.75).half_height, 1e-12);
     for (const Vec3& p : meshes[0].positions) {
@@ -156,7 +161,8 @@ TEST(Render, the_far_side_of_a_closed_body_is_left_out_and_never_missed) {
                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
   EXPECT_TRUE(is_closed(pyramid));
   const std::vector<Triangle> outwards = pyramid.triangles;
-  for (Triangle& t : pyramid.triangles) std::swap(t[0], t[1]);
+  for (Triangle& t : pyramid.triangles)
+    std::swap(t[0], t[1]);
   EXPECT_FALSE(is_closed(pyramid)) << "inside out";
   pyramid.triangles = outwards;
   pyramid.triangles.pop_back();
@@ -240,7 +246,8 @@ TEST(Png, an_animation_has_numbered_frames_and_its_first_picture_is_read_by_othe
   EXPECT_EQ(bytes, io::apng_bytes(images, 0.25, {{"Software", "test"}}));
   auto u32 = [&](std::size_t at) {
     std::uint32_t x = 0;
-    for (std::size_t k = 0; k < 4; ++k) x = x << 8 | static_cast<unsigned char>(bytes[at + k]);
+    for (std::size_t k = 0; k < 4; ++k)
+      x = x << 8 | static_cast<unsigned char>(bytes[at + k]);
     return x;
   };
   std::uint32_t sequence = 0;
@@ -274,7 +281,8 @@ TEST(Overlay, equal_pictures_compare_equal_and_a_defect_is_seen) {
   EXPECT_EQ(compare(a, a).ssim, 1);
   io::Image b = a;
   for (int y = 60; y < 70; ++y)
-    for (int x = 50; x < 60; ++x) b.at(x, y)[0] = 0;
+    for (int x = 50; x < 60; ++x)
+      b.at(x, y)[0] = 0;
   const Comparison c = compare(a, b);
   EXPECT_EQ(c.different, 100);
   EXPECT_LT(c.ssim, 0.999);
@@ -286,7 +294,8 @@ TEST(Overlay, equal_pictures_compare_equal_and_a_defect_is_seen) {
     bright.rgba[k] = 255;
   }
   for (int y = 60; y < 70; ++y)
-    for (int x = 50; x < 60; ++x) bright.at(x, y)[0] = 0;
+    for (int x = 50; x < 60; ++x)
+      bright.at(x, y)[0] = 0;
   EXPECT_THROW(compare(a, b, &dark), Error) << "nothing would be compared";
   EXPECT_EQ(compare(a, b, &bright).far, 0) << "the defect is outside the mask";
   io::Image other = a;
@@ -325,7 +334,8 @@ TEST(Overlay, a_legend_has_room_for_all_its_lines_in_a_small_picture) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const std::uint8_t* p = image.at(x, y);
-      if (p[0] == 255) continue;
+      if (p[0] == 255)
+        continue;
       last = y;
       swatch += x < 140 && y > 200 && p[0] == p[1] && p[0] > 120 &&
                 p[0] < 150; // of "no value", left of its words

@@ -27,7 +27,8 @@ TEST_P(EveryDraft, is_read_and_meshed_with_equal_vertex_counts_on_both_sides_of_
   }
   const pattern::PanelMesh mesh = pattern::mesh_pattern(pattern, 0.02, draft.name);
   EXPECT_EQ(mesh.seams.size(), draft.seams.size());
-  for (const pattern::MeshSeam& s : mesh.seams) EXPECT_EQ(s.a.size(), s.b.size()) << s.name;
+  for (const pattern::MeshSeam& s : mesh.seams)
+    EXPECT_EQ(s.a.size(), s.b.size()) << s.name;
   EXPECT_GT(mesh.triangles.size(), 1000u);
 }
 
@@ -38,7 +39,8 @@ TEST(shirt, has_a_collar_that_is_turned_over_on_its_seam_where_it_is_asked_for) 
   Draft draft = draft_shirt(Measures{});
   for (const bool turned : {false, true}) {
     for (DraftPanel& panel : draft.panels)
-      if (turned && panel.name == "collar") panel.roll_edge = "low";
+      if (turned && panel.name == "collar")
+        panel.roll_edge = "low";
     const pattern::Pattern pattern =
         pattern::read_pattern_json(pattern_document(draft), draft.name);
     for (const pattern::Panel& panel : pattern.panels)
@@ -55,7 +57,8 @@ TEST_P(EveryScan, has_its_main_landmarks_found_within_15_mm) {
        {"head_tip", "heel_l", "heel_r", "crotch", "neck_center", "neck_front", "hip_center",
         "buttock_back", "knee_l", "knee_r", "bust_prominent_l", "ankle_l"}) {
     const io::Json& truth = made.truth["landmarks"][name];
-    if (truth["trust"] == "low") continue;
+    if (truth["trust"] == "low")
+      continue;
     ASSERT_TRUE(found.body.has_landmark(name)) << name;
     const Vec3 p = (back * found.body.landmark(name).homogeneous()).head<3>();
     const std::string axes =

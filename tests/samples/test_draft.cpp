@@ -18,7 +18,9 @@ Draft draft_band_shirt(const Measures& m) {
   d.remove("collar");
   return d;
 }
-Draft draft_wide_skirt(const Measures& m) { return draft_flared_skirt(m, 0.1); }
+Draft draft_wide_skirt(const Measures& m) {
+  return draft_flared_skirt(m, 0.1);
+}
 const DraftedGarment GARMENTS[] = {
     {"shirt", draft_shirt}, {"band_shirt", draft_band_shirt}, {"tshirt", draft_tshirt},
     {"skirt", draft_skirt}, {"wide_skirt", draft_wide_skirt}, {"trousers", draft_trousers}};
@@ -31,7 +33,8 @@ namespace {
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
-  for (const std::string& line : lines) text += line + "; ";
+  for (const std::string& line : lines)
+    text += line + "; ";
   return text;
 }
 
@@ -41,7 +44,8 @@ TEST_P(EveryGarment, is_sound_for_people_of_many_shapes) {
   for (double stature : {1.50, 1.65, 1.80, 1.95})
     for (double size : {0.85, 1.0, 1.2, 1.4}) {
       Measures m;
-      for (const auto& [name, member] : measure_names()) m.*member *= stature / 1.65;
+      for (const auto& [name, member] : measure_names())
+        m.*member *= stature / 1.65;
       m.bust *= size;
       m.waist *= size * size;
       m.hip *= size;
@@ -59,7 +63,8 @@ TEST_P(EveryGarment, sews_every_edge_at_most_once) {
     ++uses[s.panel_a + "." + s.edge_a];
     ++uses[s.panel_b + "." + s.edge_b];
   }
-  for (const auto& [edge, n] : uses) EXPECT_EQ(n, 1) << edge;
+  for (const auto& [edge, n] : uses)
+    EXPECT_EQ(n, 1) << edge;
 }
 
 TEST_P(EveryGarment, is_the_same_left_and_right) {
@@ -160,5 +165,6 @@ TEST(measures, a_mannequin_gives_its_own_measures) {
   EXPECT_NEAR(m.scye_depth, 0.20, 0.03);
   EXPECT_GT(m.arm_length, 0.45);
   EXPECT_LT(m.arm_length, 0.65);
-  for (const DraftedGarment& g : GARMENTS) EXPECT_TRUE(draft_faults(g.draft(m)).empty()) << g.name;
+  for (const DraftedGarment& g : GARMENTS)
+    EXPECT_TRUE(draft_faults(g.draft(m)).empty()) << g.name;
 }

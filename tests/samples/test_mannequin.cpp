@@ -15,7 +15,8 @@ namespace {
 const MadeMannequin& made(const std::string& name) {
   static std::map<std::string, MadeMannequin> kept;
   auto found = kept.find(name);
-  if (found == kept.end()) found = kept.emplace(name, make_mannequin(preset(name))).first;
+  if (found == kept.end())
+    found = kept.emplace(name, make_mannequin(preset(name))).first;
   return found->second;
 }
 
@@ -27,7 +28,8 @@ Vec3 landmark(const MadeMannequin& m, const std::string& name) {
 double distance_to_mesh(const TriangleMesh& mesh,
                         const Vec3& p) { // to the nearest vertex; edges are about 12 mm
   double best = 1e9;
-  for (const Vec3& q : mesh.positions) best = std::min(best, (q - p).norm());
+  for (const Vec3& q : mesh.positions)
+    best = std::min(best, (q - p).norm());
   return best;
 }
 
@@ -93,7 +95,8 @@ TEST_P(EveryFigure, has_its_landmarks_in_anatomical_order) {
   const auto y = [&](const char* name) { return landmark(m, name).y(); };
   const char* down[] = {"head_tip",   "neck_back", "neck_front", "axilla_l", "omphalion",
                         "hip_center", "crotch",    "knee_l",     "ankle_l"};
-  for (int i = 0; i + 1 < 9; ++i) EXPECT_GT(y(down[i]), y(down[i + 1])) << down[i];
+  for (int i = 0; i + 1 < 9; ++i)
+    EXPECT_GT(y(down[i]), y(down[i + 1])) << down[i];
   EXPECT_GT(landmark(m, "foot_tip_l").z(), landmark(m, "heel_l").z() + 0.1);
   EXPECT_GT(landmark(m, "acromion_l").x(), landmark(m, "neck_side_l").x());
   EXPECT_LT(landmark(m, "neck_back").z(), landmark(m, "neck_front").z());
@@ -115,7 +118,8 @@ TEST_P(EveryFigure, labels_every_vertex_with_a_part_and_both_sides_alike) {
     ASSERT_LT(p, 6);
     ++count[p];
   }
-  for (int n : count) EXPECT_GT(n, 300);
+  for (int n : count)
+    EXPECT_GT(n, 300);
   EXPECT_NEAR(static_cast<double>(count[2]) / count[3], 1, 0.05);
   EXPECT_NEAR(static_cast<double>(count[4]) / count[5], 1, 0.05);
 }
@@ -169,7 +173,8 @@ TEST(polygonise, a_sphere_is_closed_and_on_the_surface) {
   box.add(Vec3::Constant(0.3));
   const TriangleMesh mesh = polygonise(sphere, box, 0.02);
   EXPECT_TRUE(is_closed_manifold(mesh));
-  for (const Vec3& p : mesh.positions) EXPECT_NEAR(p.norm(), 0.2, 1e-4);
+  for (const Vec3& p : mesh.positions)
+    EXPECT_NEAR(p.norm(), 0.2, 1e-4);
   EXPECT_NEAR(volume(mesh), 4.0 / 3 * 3.14159265 * 0.008, 2e-4);
 }
 

@@ -18,7 +18,8 @@ public:
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
       const Triangle& t = mesh.triangles[f];
       const Vec3 n = area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-      if (n.norm() < 1e-15) continue;
+      if (n.norm() < 1e-15)
+        continue;
       const Eigen::Vector4d plane(n.normalized().x(), n.normalized().y(), n.normalized().z(),
                                   -n.normalized().dot(mesh.positions[t[0]]));
       for (const int v : t) {
@@ -27,7 +28,8 @@ public:
       }
     }
     m_stamp.assign(mesh.positions.size(), 0);
-    for (const auto& e : edges_of(mesh.triangles)) push(e[0], e[1]);
+    for (const auto& e : edges_of(mesh.triangles))
+      push(e[0], e[1]);
   }
 
   TriangleMesh run(std::size_t wanted_vertices) {
@@ -37,7 +39,8 @@ public:
       m_queue.pop();
       if (m_stamp[c.a] + m_stamp[c.b] != c.stamp || m_faces[c.a].empty() || m_faces[c.b].empty())
         continue;
-      if (collapse(c)) --left;
+      if (collapse(c))
+        --left;
     }
     return compact();
   }
@@ -72,23 +75,28 @@ private:
     std::set<int> all;
     for (const int f : m_faces[v])
       for (const int w : m_mesh.triangles[f])
-        if (w != v) all.insert(w);
+        if (w != v)
+          all.insert(w);
     return all;
   }
 
   bool collapse(const Collapse& c) {
     const std::set<int> of_a = neighbours(c.a), of_b = neighbours(c.b);
     int shared = 0;
-    for (const int v : of_a) shared += of_b.count(v) != 0;
-    if (shared != 2) return false; // would fold the surface
+    for (const int v : of_a)
+      shared += of_b.count(v) != 0;
+    if (shared != 2)
+      return false; // would fold the surface
     for (const int end : {c.a, c.b})
       for (const int f : m_faces[end]) {
         Triangle t = m_mesh.triangles[f];
-        if (std::count(t.begin(), t.end(), c.a) + std::count(t.begin(), t.end(), c.b) > 1) continue;
+        if (std::count(t.begin(), t.end(), c.a) + std::count(t.begin(), t.end(), c.b) > 1)
+          continue;
         const Vec3 before =
             area_normal(m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]]);
         std::array<Vec3, 3> p;
-        for (int k = 0; k < 3; ++k) p[k] = t[k] == end ? c.to : m_mesh.positions[t[k]];
+        for (int k = 0; k < 3; ++k)
+          p[k] = t[k] == end ? c.to : m_mesh.positions[t[k]];
         if (before.dot(area_normal(p[0], p[1], p[2])) <= 0.2 * before.squaredNorm() * 0.1)
           return false;
       }
@@ -97,7 +105,8 @@ private:
     for (const int f : std::set<int>(m_faces[c.b])) {
       Triangle& t = m_mesh.triangles[f];
       if (std::count(t.begin(), t.end(), c.a)) {
-        for (const int v : t) m_faces[v].erase(f);
+        for (const int v : t)
+          m_faces[v].erase(f);
         continue;
       }
       std::replace(t.begin(), t.end(), c.b, c.a);
@@ -105,7 +114,8 @@ private:
     }
     m_faces[c.b].clear();
     ++m_stamp[c.a];
-    for (const int v : neighbours(c.a)) push(std::min(v, c.a), std::max(v, c.a));
+    for (const int v : neighbours(c.a))
+      push(std::min(v, c.a), std::max(v, c.a));
     return true;
   }
 
@@ -113,7 +123,8 @@ private:
     TriangleMesh out;
     std::vector<int> number(m_mesh.positions.size(), -1);
     std::set<int> faces;
-    for (const auto& of_vertex : m_faces) faces.insert(of_vertex.begin(), of_vertex.end());
+    for (const auto& of_vertex : m_faces)
+      faces.insert(of_vertex.begin(), of_vertex.end());
     for (const int f : faces) {
       Triangle t = m_mesh.triangles[f];
       for (int& v : t) {

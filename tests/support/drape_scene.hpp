@@ -13,9 +13,11 @@ namespace sloper::garment {
 /// = 0.8), 0.13 m below.
 inline body::Body make_pillar(int n_around = 64, int n_up = 60) {
   auto radius = [](double y) {
-    if (y > 1.0) return 0.12 + 0.3 * (y - 1.0) * (y - 1.0);
+    if (y > 1.0)
+      return 0.12 + 0.3 * (y - 1.0) * (y - 1.0);
     const double t = (1.0 - y) / 0.2;
-    if (t >= 2) return 0.13;
+    if (t >= 2)
+      return 0.13;
     const double inwards = t > 1 ? 0.003 * (1 - std::cos(M_PI * (t - 1))) : 0;
     return 0.12 + 0.008 * (1 - std::cos(M_PI * std::min(t, 1.0))) - inwards;
   };
@@ -42,7 +44,7 @@ int add_panel(Garment& garment, const std::string& name, int nx, int ny, Flat fl
   info.part = "torso";
   info.first_vertex = static_cast<int>(p.pattern.size());
   info.first_triangle = static_cast<int>(p.triangles.size());
-  const int k = static_cast<int>(p.panels.size());
+  const int k = std::ssize(p.panels);
   for (int r = 0; r <= ny; ++r)
     for (int c = 0; c <= nx; ++c) {
       const Vec2 uv = flat(c, r);

@@ -32,7 +32,8 @@ inline Vec3 in_scan(const body::Body& body, const std::string& name) {
 }
 
 inline TriangleMesh moved(TriangleMesh mesh, const Eigen::Matrix3d& linear, const Vec3& shift) {
-  for (Vec3& p : mesh.positions) p = linear * p + shift;
+  for (Vec3& p : mesh.positions)
+    p = linear * p + shift;
   return mesh;
 }
 
@@ -46,7 +47,8 @@ inline TriangleMesh with_noise(TriangleMesh mesh, double sigma, std::uint64_t se
   const std::vector<Vec3> normals = vertex_normals(mesh);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     double sum = -6;
-    for (int k = 0; k < 12; ++k) sum += random.uniform();
+    for (int k = 0; k < 12; ++k)
+      sum += random.uniform();
     mesh.positions[v] += sigma * sum * normals[v];
   }
   return mesh;
@@ -56,11 +58,14 @@ inline TriangleMesh with_noise(TriangleMesh mesh, double sigma, std::uint64_t se
 inline bool is_closed_and_oriented(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> count;
   for (const Triangle& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++count[{t[k], t[(k + 1) % 3]}];
+    for (int k = 0; k < 3; ++k)
+      ++count[{t[k], t[(k + 1) % 3]}];
   for (const auto& [edge, n] : count) {
-    if (n != 1) return false;
+    if (n != 1)
+      return false;
     const auto other = count.find({edge.second, edge.first});
-    if (other == count.end() || other->second != 1) return false;
+    if (other == count.end() || other->second != 1)
+      return false;
   }
   return !count.empty();
 }

@@ -13,7 +13,8 @@ namespace sloper::cloth {
 inline std::vector<Vec3> jittered(std::vector<Vec3> x, double by, std::uint64_t seed) {
   Random random(seed);
   for (Vec3& p : x)
-    for (int k = 0; k < 3; ++k) p[k] += random.uniform(-by, by);
+    for (int k = 0; k < 3; ++k)
+      p[k] += random.uniform(-by, by);
   return x;
 }
 
@@ -38,7 +39,8 @@ void expect_gradient(SomeEffect& effect, const ClothMesh& mesh, const std::vecto
   const auto force = force_of(effect, mesh.n_particles, x, matrix);
   const double step = 1e-6;
   double scale = 0;
-  for (const Vec3& f : force) scale = std::max(scale, f.norm());
+  for (const Vec3& f : force)
+    scale = std::max(scale, f.norm());
   Vec3 total = Vec3::Zero();
   for (int i = 0; i < mesh.n_particles; ++i) {
     total += force[i];
@@ -57,7 +59,8 @@ void expect_gradient(SomeEffect& effect, const ClothMesh& mesh, const std::vecto
 
 /// What is declared symmetric is, but for rounding.
 inline void expect_blocks_as_declared(const BlockMatrix& matrix) {
-  if (!matrix.all_symmetric()) return;
+  if (!matrix.all_symmetric())
+    return;
   for (const Mat3& block : matrix.value())
     EXPECT_LE((block - block.transpose()).norm(), 1e-14 * block.norm());
 }
@@ -71,7 +74,8 @@ inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::ve
   BlockMatrix matrix(mesh.n_particles, couplings), unused(mesh.n_particles, couplings);
   effect.bind(matrix);
   force_of(effect, mesh.n_particles, x, matrix);
-  if (whole) effect.add_indefinite_part(x, matrix);
+  if (whole)
+    effect.add_indefinite_part(x, matrix);
   expect_blocks_as_declared(matrix);
   const auto direction = jittered(std::vector<Vec3>(x.size(), Vec3::Zero()), 1, 5);
   const double step = 1e-7;
@@ -103,14 +107,16 @@ void expect_rigid_motion_invariance(SomeEffect& effect, const ClothMesh& mesh,
   effect.bind(matrix);
   const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   auto moved = x;
-  for (Vec3& p : moved) p = turn * p + Vec3(0.3, -1, 2);
+  for (Vec3& p : moved)
+    p = turn * p + Vec3(0.3, -1, 2);
   const auto force = force_of(effect, mesh.n_particles, x, matrix),
              turned = force_of(effect, mesh.n_particles, moved, matrix);
   const double energy = effect.energy(x);
   EXPECT_NEAR(effect.energy(moved), energy, 1e-9 * std::abs(energy));
   double scale = 0;
   Vec3 moment = Vec3::Zero();
-  for (std::size_t i = 0; i < x.size(); ++i) scale = std::max(scale, force[i].norm());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    scale = std::max(scale, force[i].norm());
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_LT((turned[i] - turn * force[i]).norm(), 1e-9 * scale);
     moment += x[i].cross(force[i]);

@@ -29,7 +29,8 @@ inline std::vector<DrawnEdge> gore(const std::vector<GoreWidth>& widths) {
 /// In the order in which they stand around the body, from the wearer's right to the left in front
 /// and back again behind.
 inline std::vector<std::string> gore_names(int n) {
-  if (n == 4) return {"skirt_front_r", "skirt_front_l", "skirt_back_l", "skirt_back_r"};
+  if (n == 4)
+    return {"skirt_front_r", "skirt_front_l", "skirt_back_l", "skirt_back_r"};
   if (n == 6)
     return {"skirt_front", "skirt_front_side_l", "skirt_back_side_l",
             "skirt_back",  "skirt_back_side_r",  "skirt_front_side_r"};
@@ -39,7 +40,8 @@ inline std::vector<std::string> gore_names(int n) {
 
 inline void add_gores(DrawnPattern& skirt, const std::vector<std::string>& names,
                       const std::vector<GoreWidth>& widths) {
-  for (const std::string& name : names) skirt.panel(name, gore(widths));
+  for (const std::string& name : names)
+    skirt.panel(name, gore(widths));
   for (std::size_t k = 0; k < names.size(); ++k)
     for (std::size_t length = 1; length < widths.size(); ++length)
       skirt.seam(names[k], "a" + std::to_string(length), names[(k + 1) % names.size()],
@@ -83,12 +85,15 @@ inline DrawnPattern circle_in_quarters(double waist, double hem,
                      -radius * std::cos(degrees * M_PI / 180)};
   };
   std::vector<DrawnEdge> edges;
-  for (int k = 1; k <= 6; ++k) edges.push_back(point(HEM[k - 1], hem, -45 + 15 * k));
+  for (int k = 1; k <= 6; ++k)
+    edges.push_back(point(HEM[k - 1], hem, -45 + 15 * k));
   edges.push_back(point("a1", waist, 45));
-  for (int k = 1; k <= 3; ++k) edges.push_back(point(TOP[k - 1], waist, 45 - 30 * k));
+  for (int k = 1; k <= 3; ++k)
+    edges.push_back(point(TOP[k - 1], waist, 45 - 30 * k));
   edges.push_back(point("b1", hem, -45));
   DrawnPattern skirt;
-  for (const std::string& name : names) skirt.panel(name, edges);
+  for (const std::string& name : names)
+    skirt.panel(name, edges);
   for (std::size_t k = 0; k < names.size(); ++k)
     skirt.seam(names[k], "a1", names[(k + 1) % names.size()], "b1");
   return skirt;

@@ -31,12 +31,17 @@ inline Garment hung_sheet(int nx, int ny, double cell, double ripple = 0.002) {
       const int a = at(c, r), b = at(c + 1, r), d = at(c, r + 1), e = at(c + 1, r + 1);
       if ((r + c) % 2)
         p.triangles.insert(p.triangles.end(), {Triangle{a, b, d}, Triangle{b, e, d}});
-      else p.triangles.insert(p.triangles.end(), {Triangle{a, b, e}, Triangle{a, e, d}});
+      else
+        p.triangles.insert(p.triangles.end(), {Triangle{a, b, e}, Triangle{a, e, d}});
     }
-  for (int c = 0; c <= nx; ++c) panel.outline.push_back(at(c, 0));
-  for (int r = 1; r <= ny; ++r) panel.outline.push_back(at(nx, r));
-  for (int c = nx - 1; c >= 0; --c) panel.outline.push_back(at(c, ny));
-  for (int r = ny - 1; r > 0; --r) panel.outline.push_back(at(0, r));
+  for (int c = 0; c <= nx; ++c)
+    panel.outline.push_back(at(c, 0));
+  for (int r = 1; r <= ny; ++r)
+    panel.outline.push_back(at(nx, r));
+  for (int c = nx - 1; c >= 0; --c)
+    panel.outline.push_back(at(c, ny));
+  for (int r = ny - 1; r > 0; --r)
+    panel.outline.push_back(at(0, r));
   p.panels.push_back(panel);
   return g;
 }

@@ -46,28 +46,33 @@ inline Sewn sew(const PanelMesh& mesh) {
   out.weld.resize(mesh.pattern.size());
   std::iota(out.weld.begin(), out.weld.end(), 0);
   const auto find = [&](int v) {
-    while (out.weld[static_cast<std::size_t>(v)] != v) v = out.weld[static_cast<std::size_t>(v)];
+    while (out.weld[v] != v)
+      v = out.weld[v];
     return v;
   };
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) {
       const int a = find(s.a[k]), b = find(s.b[k]);
-      out.weld[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      out.weld[std::max(a, b)] = std::min(a, b);
     }
-  for (std::size_t v = 0; v < out.weld.size(); ++v) out.weld[v] = find(static_cast<int>(v));
+  for (std::size_t v = 0; v < out.weld.size(); ++v)
+    out.weld[v] = find(static_cast<int>(v));
   std::map<std::pair<int, int>, int> directed, undirected;
   std::map<Triangle, int> faces;
   for (const Triangle& t : mesh.triangles) {
-    Triangle w{out.weld[static_cast<std::size_t>(t[0])], out.weld[static_cast<std::size_t>(t[1])],
-               out.weld[static_cast<std::size_t>(t[2])]};
-    if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) ++out.degenerate;
+    Triangle w{out.weld[t[0]], out.weld[t[1]], out.weld[t[2]]};
+    if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0])
+      ++out.degenerate;
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = w[k], b = w[(k + 1) % 3];
-      if (++directed[{a, b}] > 1) ++out.wrong_direction;
-      if (++undirected[{std::min(a, b), std::max(a, b)}] > 2) ++out.non_manifold;
+      if (++directed[{a, b}] > 1)
+        ++out.wrong_direction;
+      if (++undirected[{std::min(a, b), std::max(a, b)}] > 2)
+        ++out.non_manifold;
     }
     std::sort(w.begin(), w.end());
-    if (++faces[w] > 1) ++out.duplicate_faces;
+    if (++faces[w] > 1)
+      ++out.duplicate_faces;
   }
   std::map<int, std::vector<int>> open;
   for (const auto& [edge, n] : undirected)
@@ -77,15 +82,18 @@ inline Sewn sew(const PanelMesh& mesh) {
     }
   std::map<int, bool> seen;
   for (const auto& [start, ends] : open) {
-    if (seen[start]) continue;
+    if (seen[start])
+      continue;
     ++out.boundary_loops;
     std::vector<int> stack = {start};
     while (!stack.empty()) {
       const int v = stack.back();
       stack.pop_back();
-      if (seen[v]) continue;
+      if (seen[v])
+        continue;
       seen[v] = true;
-      for (int w : open[v]) stack.push_back(w);
+      for (int w : open[v])
+        stack.push_back(w);
     }
   }
   return out;
@@ -94,10 +102,8 @@ inline Sewn sew(const PanelMesh& mesh) {
 inline double mesh_area(const PanelMesh& mesh, const PanelInfo& panel) {
   double sum = 0;
   for (int t = panel.first_triangle; t < panel.first_triangle + panel.n_triangles; ++t) {
-    const Triangle& tri = mesh.triangles[static_cast<std::size_t>(t)];
-    const Vec2 &a = mesh.pattern[static_cast<std::size_t>(tri[0])],
-               &b = mesh.pattern[static_cast<std::size_t>(tri[1])],
-               &c = mesh.pattern[static_cast<std::size_t>(tri[2])];
+    const Triangle& tri = mesh.triangles[t];
+    const Vec2 &a = mesh.pattern[tri[0]], &b = mesh.pattern[tri[1]], &c = mesh.pattern[tri[2]];
     sum += 0.5 * ((b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()));
   }
   return sum;
@@ -107,7 +113,8 @@ inline double outline_area(const Panel& panel) {
   double sum = 0;
   for (const auto& loop : panel.loops) {
     std::vector<Path> paths;
-    for (const PanelEdge& e : loop) paths.push_back(e.path);
+    for (const PanelEdge& e : loop)
+      paths.push_back(e.path);
     sum += signed_area(paths);
   }
   return sum;

@@ -31,7 +31,8 @@ inline body::Body waisted_body() {
   std::vector<char> torso(body.skin.positions.size(), 0);
   for (std::size_t t = 0; t < body.skin.triangles.size(); ++t)
     if (body.face_part[t] == body::Part::TORSO)
-      for (int v : body.skin.triangles[t]) torso[static_cast<std::size_t>(v)] = 1;
+      for (int v : body.skin.triangles[t])
+        torso[v] = 1;
   for (std::size_t k = 0; k < torso.size(); ++k)
     if (torso[k]) {
       Vec3& p = body.skin.positions[k];
@@ -45,15 +46,16 @@ inline body::Body waisted_body() {
 /// Mean of a panel's placed vertices, m.
 inline Vec3 middle(const PanelMesh& mesh, int panel) {
   Vec3 sum = Vec3::Zero();
-  const PanelInfo& p = mesh.panels[static_cast<std::size_t>(panel)];
+  const PanelInfo& p = mesh.panels[panel];
   for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v)
-    sum += mesh.placed[static_cast<std::size_t>(v)];
+    sum += mesh.placed[v];
   return sum / p.n_vertices;
 }
 
 inline double top_of(const PanelMesh& mesh) {
   double top = -1e300;
-  for (const Vec3& p : mesh.placed) top = std::max(top, p.y());
+  for (const Vec3& p : mesh.placed)
+    top = std::max(top, p.y());
   return top;
 }
 

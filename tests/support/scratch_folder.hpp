@@ -12,7 +12,8 @@ class ScratchFolder {
 public:
   ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "sloper-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) std::abort();
+    if (!mkdtemp(name.data()))
+      std::abort();
     m_path = name;
   }
   ~ScratchFolder() {

@@ -19,7 +19,8 @@ inline Vec3 random_point(Random& random, double size = 1) {
 /// A point of the grid 0 .. range - 1.
 inline Vec3 grid_point(Random& random, unsigned range) {
   Vec3 p;
-  for (double& c : p) c = static_cast<double>(random.next() % range);
+  for (double& c : p)
+    c = static_cast<double>(random.next() % range);
   return p;
 }
 
@@ -42,7 +43,8 @@ inline TriangleMesh sphere(int levels, double radius = 1, const Vec3& center = V
         const int a = t[k], b = t[(k + 1) % 3];
         const auto [at, fresh] = middle.try_emplace({std::min(a, b), std::max(a, b)},
                                                     static_cast<int>(mesh.positions.size()));
-        if (fresh) mesh.positions.push_back(mesh.positions[a] + mesh.positions[b]);
+        if (fresh)
+          mesh.positions.push_back(mesh.positions[a] + mesh.positions[b]);
         m[k] = at->second;
       }
       finer.insert(
@@ -50,9 +52,11 @@ inline TriangleMesh sphere(int levels, double radius = 1, const Vec3& center = V
           {{t[0], m[0], m[2]}, {t[1], m[1], m[0]}, {t[2], m[2], m[1]}, {m[0], m[1], m[2]}});
     }
     mesh.triangles = finer;
-    for (Vec3& p : mesh.positions) p.normalize();
+    for (Vec3& p : mesh.positions)
+      p.normalize();
   }
-  for (Vec3& p : mesh.positions) p = center + radius * p.normalized();
+  for (Vec3& p : mesh.positions)
+    p = center + radius * p.normalized();
   return mesh;
 }
 
@@ -73,7 +77,7 @@ inline TriangleMesh revolve(int around, const std::vector<Ring>& rings,
       mesh.positions.push_back(center + Vec3(ring.x * std::sin(a), ring.y, ring.z * std::cos(a)));
     }
   const auto id = [around](int r, int c) { return r * around + c % around; };
-  for (int r = 0; r + 1 < static_cast<int>(rings.size()); ++r)
+  for (int r = 0; r + 1 < std::ssize(rings); ++r)
     for (int c = 0; c < around; ++c) {
       mesh.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
       mesh.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
@@ -88,7 +92,8 @@ inline void close_ends(TriangleMesh& mesh, int around, const Vec3& low, const Ve
   const int below = static_cast<int>(mesh.positions.size()), above = below + 1;
   mesh.positions.push_back(low);
   mesh.positions.push_back(high);
-  for (int c = 0; c < around; ++c) mesh.triangles.push_back({below, (c + 1) % around, c});
+  for (int c = 0; c < around; ++c)
+    mesh.triangles.push_back({below, (c + 1) % around, c});
   for (int c = 0; c < around; ++c)
     mesh.triangles.push_back({above, top + c, top + (c + 1) % around});
 }
@@ -97,7 +102,8 @@ inline void close_ends(TriangleMesh& mesh, int around, const Vec3& low, const Ve
 inline TriangleMesh cylinder(double radius, double low, double high, int around, int up = 1,
                              const Vec3& center = Vec3::Zero(), double turned = 0) {
   std::vector<Ring> rings;
-  for (int r = 0; r <= up; ++r) rings.push_back({low + (high - low) * r / up, radius, radius});
+  for (int r = 0; r <= up; ++r)
+    rings.push_back({low + (high - low) * r / up, radius, radius});
   TriangleMesh mesh = revolve(around, rings, center, turned);
   close_ends(mesh, around, center + Vec3(0, low, 0), center + Vec3(0, high, 0));
   return mesh;
@@ -107,19 +113,23 @@ inline TriangleMesh cylinder(double radius, double low, double high, int around,
 inline TriangleMesh sheet(int n, int m, double width, double height, double z = 0) {
   TriangleMesh mesh;
   for (int j = 0; j <= m; ++j)
-    for (int i = 0; i <= n; ++i) mesh.positions.push_back({width * i / n, height * j / m, z});
+    for (int i = 0; i <= n; ++i)
+      mesh.positions.push_back({width * i / n, height * j / m, z});
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < n; ++i) {
       const int a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-      if ((i + j) % 2) mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
-      else mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
+      if ((i + j) % 2)
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
+      else
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
     }
   return mesh;
 }
 
 inline void jitter(TriangleMesh& mesh, double amount, std::uint64_t seed) {
   Random random(seed);
-  for (Vec3& p : mesh.positions) p += random_point(random, amount);
+  for (Vec3& p : mesh.positions)
+    p += random_point(random, amount);
 }
 
 inline void append(TriangleMesh& mesh, const TriangleMesh& other) {
@@ -137,9 +147,12 @@ inline TriangleMesh soup(int n, double size, std::uint64_t seed) {
   for (int i = 0; i < n; ++i) {
     const Vec3 a = random_point(random);
     Vec3 b = a + random_point(random, size), c = a + random_point(random, size);
-    if (i % 17 == 3) c = b;
-    if (i % 23 == 5) c = 0.5 * (a + b) + random_point(random, 1e-12);
-    if (i % 29 == 7) b = c = a;
+    if (i % 17 == 3)
+      c = b;
+    if (i % 23 == 5)
+      c = 0.5 * (a + b) + random_point(random, 1e-12);
+    if (i % 29 == 7)
+      b = c = a;
     mesh.positions.insert(mesh.positions.end(), {a, b, c});
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }

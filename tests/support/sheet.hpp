@@ -17,7 +17,7 @@ template<class F> garment::Garment make_sheet(int n, F&& place) {
       const double s = static_cast<double>(c) / n, t = static_cast<double>(r) / n;
       g.panels.pattern.emplace_back(0.3 * s, 0.3 * t);
       g.panels.ids.push_back({0, s, t});
-      g.particle_of.push_back(static_cast<int>(g.particle_of.size()));
+      g.particle_of.push_back(std::ssize(g.particle_of));
       g.position.push_back(place(g.panels.pattern.back()));
     }
   g.panels.placed = g.position;
@@ -30,6 +30,8 @@ template<class F> garment::Garment make_sheet(int n, F&& place) {
   return g;
 }
 
-inline Vec3 flat(const Vec2& p) { return {p.x(), 1 + p.y(), 0}; }
+inline Vec3 flat(const Vec2& p) {
+  return {p.x(), 1 + p.y(), 0};
+}
 
 } // namespace sloper::support

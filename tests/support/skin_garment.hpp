@@ -18,7 +18,9 @@ inline body::Body measured(samples::Mannequin shape) {
                             silent_reporter())
       .body;
 }
-inline body::Body measured(const std::string& preset) { return measured(samples::preset(preset)); }
+inline body::Body measured(const std::string& preset) {
+  return measured(samples::preset(preset));
+}
 
 /// One panel over some faces; rest lengths are those of `position` times (1 - strain).
 inline Garment sheet(const std::vector<Vec3>& position, const std::vector<Triangle>& faces,
@@ -26,7 +28,8 @@ inline Garment sheet(const std::vector<Vec3>& position, const std::vector<Triang
   Garment g;
   std::map<int, int> number;
   for (const Triangle& t : faces)
-    for (const int v : t) number.emplace(v, 0);
+    for (const int v : t)
+      number.emplace(v, 0);
   pattern::PanelInfo panel;
   panel.name = "sheet";
   for (auto& [v, n] : number) {
@@ -61,14 +64,16 @@ inline Garment skin_garment(const body::Body& body, const std::set<body::Part>& 
                             double high, double gap, double strain = 0) {
   const std::vector<Vec3> normals = vertex_normals(body.skin);
   std::vector<Vec3> position = body.skin.positions;
-  for (std::size_t i = 0; i < position.size(); ++i) position[i] += gap * normals[i];
+  for (std::size_t i = 0; i < position.size(); ++i)
+    position[i] += gap * normals[i];
   std::vector<Triangle> faces;
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
     const Triangle& t = body.skin.triangles[f];
     const double y = (body.skin.positions[t[0]].y() + body.skin.positions[t[1]].y() +
                       body.skin.positions[t[2]].y()) /
                      3;
-    if (parts.count(body.face_part[f]) && y > low && y < high) faces.push_back(t);
+    if (parts.count(body.face_part[f]) && y > low && y < high)
+      faces.push_back(t);
   }
   return sheet(position, faces, strain);
 }
@@ -85,14 +90,16 @@ inline Garment skin_shirt(const body::Body& body, double gap = 0.01, double stra
     for (const std::string side : {"_l", "_r"}) {
       const Vec3 wrist = body.landmark("wrist" + side),
                  along = wrist - body.landmark("elbow" + side);
-      if ((p - wrist).dot(along) > 0 && (p - wrist).norm() < 0.3) return true;
+      if ((p - wrist).dot(along) > 0 && (p - wrist).norm() < 0.3)
+        return true;
     }
     return false;
   };
   for (const Triangle& t : g.panels.triangles) {
     const Vec3 p = (g.position[t[0]] + g.position[t[1]] + g.position[t[2]]) / 3;
     const bool trunk = std::abs(p.x()) < std::abs(body.landmark("acromion_l").x());
-    if (!beyond_wrist(p) && !(trunk && p.y() < hip)) faces.push_back(t);
+    if (!beyond_wrist(p) && !(trunk && p.y() < hip))
+      faces.push_back(t);
   }
   return sheet(g.position, faces, strain);
 }
@@ -141,8 +148,10 @@ inline body::Body without_arms(body::Body body) {
   body.skin.triangles = faces;
   body.face_part = parts;
   for (const char* name : {"hand_tip", "hand_extreme", "wrist", "elbow", "olecranon"})
-    for (const char* side : {"_l", "_r"}) body.landmarks.erase(std::string(name) + side);
-  for (const char* name : {"arm_l", "arm_r"}) body.frames.erase(name);
+    for (const char* side : {"_l", "_r"})
+      body.landmarks.erase(std::string(name) + side);
+  for (const char* name : {"arm_l", "arm_r"})
+    body.frames.erase(name);
   return body;
 }
 
@@ -151,7 +160,8 @@ inline std::pair<double, double> edge_ratios(const Garment& garment, const std::
                                              const std::vector<Vec3>& b) {
   std::vector<double> ratios;
   for (const auto& [i, j] : edges_of(garment.particle_triangles()))
-    if ((a[i] - a[j]).norm() > 1e-3) ratios.push_back((b[i] - b[j]).norm() / (a[i] - a[j]).norm());
+    if ((a[i] - a[j]).norm() > 1e-3)
+      ratios.push_back((b[i] - b[j]).norm() / (a[i] - a[j]).norm());
   std::sort(ratios.begin(), ratios.end());
   const std::size_t cut = ratios.size() / 1000;
   return {ratios[cut], ratios[ratios.size() - 1 - cut]};

@@ -14,7 +14,7 @@ inline void add_tube(body::Body& body, body::Part part, const Vec3& a, const Vec
   const Vec3 up = (b - a).normalized(), x = (wide - wide.dot(up) * up).normalized(),
              z = x.cross(up);
   TriangleMesh& m = body.skin;
-  const int first = static_cast<int>(m.positions.size());
+  const int first = std::ssize(m.positions);
   for (int r = 0; r <= UP; ++r) {
     const double t = static_cast<double>(r) / UP,
                  swell = std::sqrt(std::max(0.05, 1 - std::pow(2 * t - 1, 8)));

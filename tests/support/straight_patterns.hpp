@@ -46,8 +46,10 @@ public:
   /// Four quarters: a left front and a right back as drawn, the others in the mirror.
   void quarters(const std::vector<DrawnEdge>& edges, const std::vector<const char*>& sides,
                 const std::vector<const char*>& middles) {
-    for (const char* name : {"front_l", "back_r"}) panel(name, edges);
-    for (const char* name : {"front_r", "back_l"}) panel(name, seen_in_mirror(edges));
+    for (const char* name : {"front_l", "back_r"})
+      panel(name, edges);
+    for (const char* name : {"front_r", "back_l"})
+      panel(name, seen_in_mirror(edges));
     for (const char* edge : sides) {
       seam("front_l", edge, "back_l", edge);
       seam("front_r", edge, "back_r", edge);

@@ -59,11 +59,12 @@ inline HexSheet make_hex_sheet(int n, double dx, int m, const Fabric& fabric) {
   std::vector<RestTriangle> triangles;
   for (int c = 0; c <= n; ++c) {
     std::vector<double> across{0};
-    for (int k = c % 2 ? 0 : 1; k < m; ++k) across.push_back((c % 2 ? k + 0.5 : k) * l);
+    for (int k = c % 2 ? 0 : 1; k < m; ++k)
+      across.push_back((c % 2 ? k + 0.5 : k) * l);
     across.push_back(m * l);
     s.columns.emplace_back();
     for (double z : across) {
-      s.columns.back().push_back(static_cast<int>(flat.size()));
+      s.columns.back().push_back(std::ssize(flat));
       flat.emplace_back(c * dx, z);
       s.x.emplace_back(c * dx, 0, -z);
     }
@@ -101,8 +102,10 @@ inline int go_to_rest(ClothSolver& solver, double still = 1e-5, int most = 3000,
   o.largest_move_m = 0.02;
   for (int k = 0; k < most; ++k) {
     const StepResult r = solver.step(o);
-    if (!r.finite) return -1;
-    if (r.largest_move_m / o.h < still && o.h > 0.5 * largest_h) return k + 1;
+    if (!r.finite)
+      return -1;
+    if (r.largest_move_m / o.h < still && o.h > 0.5 * largest_h)
+      return k + 1;
     o.h = r.largest_move_m < 0.005 ? std::min(1.3 * o.h, largest_h) : std::max(0.8 * o.h, 0.005);
   }
   return -1;

@@ -35,7 +35,8 @@ inline double ring_shadow(const ClothMesh& mesh, const std::vector<Vec3>& x) {
   std::vector<char> dark(static_cast<std::size_t>(N) * N, 0);
   for (const RestTriangle& t : mesh.triangles) {
     Vec2 p[3];
-    for (int k = 0; k < 3; ++k) p[k] = Vec2(x[t.particle[k]].x(), x[t.particle[k]].z());
+    for (int k = 0; k < 3; ++k)
+      p[k] = Vec2(x[t.particle[k]].x(), x[t.particle[k]].z());
     const auto side = [](const Vec2& a, const Vec2& b, const Vec2& q) {
       return (b.x() - a.x()) * (q.y() - a.y()) - (b.y() - a.y()) * (q.x() - a.x());
     };
@@ -52,7 +53,8 @@ inline double ring_shadow(const ClothMesh& mesh, const std::vector<Vec3>& x) {
       }
   }
   std::size_t count = 0;
-  for (char d : dark) count += d;
+  for (char d : dark)
+    count += d;
   return static_cast<double>(count) * CELL * CELL;
 }
 
@@ -73,7 +75,7 @@ inline Cusick drape_cusick(const Fabric& fabric, int rings, const std::string& m
     ring.emplace_back();
     for (int i = 0; i < n; ++i) {
       const double a = 2 * M_PI * (i + offset) / n;
-      ring.back().push_back(static_cast<int>(flat.size()));
+      ring.back().push_back(std::ssize(flat));
       flat.emplace_back(r * std::cos(a), r * std::sin(a));
     }
   }
@@ -85,7 +87,8 @@ inline Cusick drape_cusick(const Fabric& fabric, int rings, const std::string& m
     const auto &p = ring[k], &q = ring[k + 1];
     std::size_t j0 = 0;
     for (std::size_t j = 0; j < q.size(); ++j)
-      if ((flat[q[j]] - flat[p[0]]).norm() < (flat[q[j0]] - flat[p[0]]).norm()) j0 = j;
+      if ((flat[q[j]] - flat[p[0]]).norm() < (flat[q[j0]] - flat[p[0]]).norm())
+        j0 = j;
     for (std::size_t i = 0, j = 0; i < p.size() || j < q.size();) {
       const int pi = p[i % p.size()], pn = p[(i + 1) % p.size()], qj = q[(j0 + j) % q.size()],
                 qn = q[(j0 + j + 1) % q.size()];
@@ -108,13 +111,18 @@ inline Cusick drape_cusick(const Fabric& fabric, int rings, const std::string& m
     x.emplace_back(flat[i].x(), 0, -flat[i].y());
     if (static_cast<int>(i) <= ring[1].back())
       pins.push_back({static_cast<int>(i), x.back(), 1e4, Vec3::Zero()});
-    else x.back().y() += random.uniform(-1e-3, 1e-3);
+    else
+      x.back().y() += random.uniform(-1e-3, 1e-3);
   }
   ClothSolver solver(mesh, x);
-  if (model == "fem") solver.emplace<MembraneEffect>(mesh);
-  else if (model == "triangles") solver.emplace<TriangleStretchEffect>(mesh);
-  else solver.emplace<EdgeSpringEffect>(mesh);
-  if (model != "fem") solver.emplace<ShearEffect>(mesh);
+  if (model == "fem")
+    solver.emplace<MembraneEffect>(mesh);
+  else if (model == "triangles")
+    solver.emplace<TriangleStretchEffect>(mesh);
+  else
+    solver.emplace<EdgeSpringEffect>(mesh);
+  if (model != "fem")
+    solver.emplace<ShearEffect>(mesh);
   solver.emplace<BendingEffect>(mesh);
   solver.emplace<GravityEffect>(mesh, Vec3(0, -9.80665, 0));
   solver.emplace<PinsEffect>(pins);
@@ -132,7 +140,8 @@ inline Cusick drape_cusick(const Fabric& fabric, int rings, const std::string& m
     out.rim.emplace_back(y[i].x(), y[i].z());
     radius.push_back(out.rim.back().norm());
   }
-  for (double r : radius) mean += r / static_cast<double>(radius.size());
+  for (double r : radius)
+    mean += r / static_cast<double>(radius.size());
   bool out_there = radius.back() > mean;
   for (double r : radius) { // a fold counts when it swings 2 mm to either side
     const bool now = r > mean + (out_there ? -0.002 : 0.002);

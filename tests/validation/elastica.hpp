@@ -31,7 +31,8 @@ inline double elastica_ratio(double gamma) {
       h += 0.5 * ds * (std::sin(theta) + std::sin(next));
       theta = next;
       d += ds / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
-      if (theta < -0.1) return theta;
+      if (theta < -0.1)
+        return theta;
     }
     return theta;
   };
@@ -77,7 +78,8 @@ inline std::vector<Vec2> heavy_loop(double gamma) {
     const double load = gamma * k / N_LOADS;
     for (int newton = 0; newton < 30; ++newton) {
       const Vec2 r = shoot(load, slope, pull);
-      if (r.norm() < 1e-10) break;
+      if (r.norm() < 1e-10)
+        break;
       const double h = 1e-6;
       Eigen::Matrix2d jacobian;
       jacobian.col(0) = (shoot(load, slope + h, pull) - r) / h;
@@ -89,7 +91,8 @@ inline std::vector<Vec2> heavy_loop(double gamma) {
   }
   shoot(gamma, slope, pull);
   std::vector<Vec2> loop = half;
-  for (std::size_t k = half.size() - 1; k-- > 0;) loop.emplace_back(-half[k].x(), half[k].y());
+  for (std::size_t k = half.size() - 1; k-- > 0;)
+    loop.emplace_back(-half[k].x(), half[k].y());
   return loop;
 }
 

@@ -44,19 +44,22 @@ Fabric soft() {
 /// half a swing of its own stretch.
 template<class Model> double dropped(double h) {
   Sheet s = make_sheet(2, 12, 0.02, 0.025, soft());
-  for (Vec3& p : s.x) p = Vec3(p.x(), p.z(), 0);
+  for (Vec3& p : s.x)
+    p = Vec3(p.x(), p.z(), 0);
   ClothSolver solver(s.mesh, s.x);
   solver.emplace<Model>(s.mesh);
   solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.80665, 0));
   std::vector<Pin> pins;
-  for (int c = 0; c <= s.nx; ++c) pins.push_back({s.at(c, 0), s.x[s.at(c, 0)], 1e4, Vec3::Zero()});
+  for (int c = 0; c <= s.nx; ++c)
+    pins.push_back({s.at(c, 0), s.x[s.at(c, 0)], 1e4, Vec3::Zero()});
   solver.emplace<PinsEffect>(pins);
   StepOptions o;
   o.h = h;
   o.inertia = 1;
   o.cg_tolerance = 1e-10;
   o.cg_max_iterations = 5000;
-  for (int k = 0, n = static_cast<int>(std::lround(0.05 / h)); k < n; ++k) solver.step(o);
+  for (int k = 0, n = static_cast<int>(std::lround(0.05 / h)); k < n; ++k)
+    solver.step(o);
   return solver.x()[s.at(1, s.ny)].y();
 }
 
@@ -79,11 +82,13 @@ Swung swung(double h, int newton_iterations) {
   solver.emplace<BendingEffect>(s.mesh);
   solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.80665, 0));
   std::vector<Pin> pins;
-  for (int c = 0; c <= s.nx; ++c) pins.push_back({s.at(c, 0), s.x[s.at(c, 0)], 1e4, Vec3::Zero()});
+  for (int c = 0; c <= s.nx; ++c)
+    pins.push_back({s.at(c, 0), s.x[s.at(c, 0)], 1e4, Vec3::Zero()});
   solver.emplace<PinsEffect>(pins);
   const auto energy = [&] {
     double sum = 0;
-    for (const auto& e : solver.effects()) sum += e->energy(solver.x());
+    for (const auto& e : solver.effects())
+      sum += e->energy(solver.x());
     for (std::size_t i = 0; i < s.x.size(); ++i)
       sum += 0.5 * s.mesh.mass[i] * solver.v()[i].squaredNorm();
     return sum;
@@ -97,7 +102,8 @@ Swung swung(double h, int newton_iterations) {
   o.guard_energy = newton_iterations == 0;
   Swung result;
   double before = energy(), set_free = 0;
-  for (std::size_t i = 0; i < s.x.size(); ++i) set_free += 9.80665 * s.mesh.mass[i] * 0.15;
+  for (std::size_t i = 0; i < s.x.size(); ++i)
+    set_free += 9.80665 * s.mesh.mass[i] * 0.15;
   const int n = static_cast<int>(std::lround(0.75 / h));
   const std::clock_t began = std::clock();
   for (int k = 0; k < n; ++k) {
@@ -127,7 +133,8 @@ double sag(int n) {
   solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.80665, 0));
   std::vector<Pin> pins;
   for (int r = 0; r < 2; ++r)
-    for (int c : {0, n}) pins.push_back({s.at(c, r), s.x[s.at(c, r)], 1e6, Vec3::Zero()});
+    for (int c : {0, n})
+      pins.push_back({s.at(c, r), s.x[s.at(c, r)], 1e6, Vec3::Zero()});
   solver.emplace<PinsEffect>(pins);
   EXPECT_GE(go_to_rest(solver, 1e-7, 6000), 0) << n << " cells";
   return -solver.x()[s.at(n / 2, 0)].y();
@@ -214,7 +221,8 @@ TEST(Convergence, in_the_tolerance_of_conjugate_gradients_is_of_first_order) {
   for (double tolerance = 1e-1; tolerance > 5e-8; tolerance *= 0.1) {
     const std::vector<Vec3> x = stepped(tolerance);
     double sum = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) sum += (x[i] - exact[i]).squaredNorm();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      sum += (x[i] - exact[i]).squaredNorm();
     size.push_back(tolerance);
     error.push_back(std::sqrt(sum));
   }

@@ -10,7 +10,9 @@ using namespace sloper::cloth;
 
 namespace {
 
-Fabric preset(const std::string& name) { return garment::material_preset(name); }
+Fabric preset(const std::string& name) {
+  return garment::material_preset(name);
+}
 
 /// Mean of three specimens, as the standard asks: one specimen may settle on another number of
 /// folds, 2-3 points away.
@@ -21,8 +23,9 @@ double mean_coefficient(const Fabric& fabric, int rings, const char* model) {
   return sum;
 }
 
-#define SLOW_TEST() \
-  if (!std::getenv("SLOPER_VALIDATION")) GTEST_SKIP() << "slow: run it with make validation"
+#define SLOW_TEST()                      \
+  if (!std::getenv("SLOPER_VALIDATION")) \
+  GTEST_SKIP() << "slow: run it with make validation"
 
 } // namespace
 

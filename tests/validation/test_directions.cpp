@@ -37,17 +37,20 @@ double strip(double angle, double scale, int n, int m, bool by_angles) {
   std::vector<RestTriangle> triangles = s.mesh.triangles;
   const double turn = 0.5 * M_PI - angle, c = std::cos(turn), q = std::sin(turn);
   for (RestTriangle& t : triangles)
-    for (Vec2& p : t.flat) p = Vec2(c * p.x() - q * p.y(), q * p.x() + c * p.y());
+    for (Vec2& p : t.flat)
+      p = Vec2(c * p.x() - q * p.y(), q * p.x() + c * p.y());
   const ClothMesh mesh = make_cloth_mesh(static_cast<int>(s.x.size()), triangles, {fabric});
   ClothSolver solver(mesh, s.x);
   solver.emplace<MembraneEffect>(mesh);
   if (by_angles)
     solver.emplace<OrthotropicBendingEffect>(mesh, std::vector<double>(mesh.hinges.size()));
-  else solver.emplace<OrthotropicBendingEffect>(mesh);
+  else
+    solver.emplace<OrthotropicBendingEffect>(mesh);
   solver.emplace<GravityEffect>(mesh, Vec3(0, -9.80665, 0));
   std::vector<Pin> pins;
   for (int k = 0; k < 3; ++k)
-    for (int p : s.columns[k]) pins.push_back({p, s.x[p], 1e4, Vec3::Zero()});
+    for (int p : s.columns[k])
+      pins.push_back({p, s.x[p], 1e4, Vec3::Zero()});
   solver.emplace<PinsEffect>(pins);
   EXPECT_GT(go_to_rest(solver), 0);
   Vec3 tip = Vec3::Zero();
@@ -65,7 +68,8 @@ void expect_strips(bool by_angles, int across, double bound) {
   for (double scale : {0.3, 1.0, 4.0})
     for (int degrees : {0, 45, 90}) {
       double of_direction = degrees == 45 ? 1.2e-4 : 1e-4; // N m
-      if (degrees == 0) of_direction = 2e-4;
+      if (degrees == 0)
+        of_direction = 2e-4;
       const double rigidity = scale * of_direction, exact = elastica_ratio(weight / rigidity),
                    ours = strip(degrees * M_PI / 180, scale, 16, across, by_angles);
       print_figure("H/W of a strip cut at " + std::to_string(degrees) + " degrees, Gamma " +
@@ -82,4 +86,6 @@ void expect_strips(bool by_angles, int across, double bound) {
 TEST(Directions, strips_cut_at_0_45_and_90_degrees_hang_by_their_own_rigidity) {
   expect_strips(false, 30, 0.03);
 }
-TEST(Directions, and_so_they_do_with_rest_angles) { expect_strips(true, 30, 0.03); }
+TEST(Directions, and_so_they_do_with_rest_angles) {
+  expect_strips(true, 30, 0.03);
+}

@@ -63,7 +63,8 @@ Buckled buckled(double eps) {
       const Vec2 step = jacobian.fullPivLu().solve(r);
       n -= step[0];
       t -= step[1];
-      if (step.norm() < 1e-10) break;
+      if (step.norm() < 1e-10)
+        break;
     }
     shoot(slope, n, t);
     return shortening;
@@ -101,17 +102,23 @@ double cantilever(double gamma, int n, int m, double rigidity, BentModel model) 
   // it behind the clamp, so the clamp lies half a cell before that column: length = (n + 1/2) dx.
   const HexSheet s = make_hex_sheet(n + 1, dx, m, fabric);
   ClothSolver solver(s.mesh, s.x);
-  if (model == BentModel::SPRINGS) solver.emplace<EdgeSpringEffect>(s.mesh);
-  else if (model == BentModel::TRIANGLES) solver.emplace<TriangleStretchEffect>(s.mesh);
-  else solver.emplace<MembraneEffect>(s.mesh);
+  if (model == BentModel::SPRINGS)
+    solver.emplace<EdgeSpringEffect>(s.mesh);
+  else if (model == BentModel::TRIANGLES)
+    solver.emplace<TriangleStretchEffect>(s.mesh);
+  else
+    solver.emplace<MembraneEffect>(s.mesh);
   if (model == BentModel::SPRINGS || model == BentModel::TRIANGLES)
     solver.emplace<ShearEffect>(s.mesh);
-  if (model == BentModel::FEM_DIHEDRAL) solver.emplace<DihedralBendingEffect>(s.mesh);
-  else solver.emplace<BendingEffect>(s.mesh);
+  if (model == BentModel::FEM_DIHEDRAL)
+    solver.emplace<DihedralBendingEffect>(s.mesh);
+  else
+    solver.emplace<BendingEffect>(s.mesh);
   solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.80665, 0));
   std::vector<Pin> pins;
   for (int c = 0; c < 2; ++c)
-    for (int p : s.columns[c]) pins.push_back({p, s.x[p], 1e4, Vec3::Zero()});
+    for (int p : s.columns[c])
+      pins.push_back({p, s.x[p], 1e4, Vec3::Zero()});
   solver.emplace<PinsEffect>(pins);
   EXPECT_GT(go_to_rest(solver), 0) << "gamma " << gamma;
   Vec3 tip = Vec3::Zero();
@@ -150,7 +157,8 @@ TEST(Elastica, the_references_agree_with_an_independent_solver) {
     plot_point("stick-slip", "Romero et al. 2021", eps, buckled(eps).friction);
   EXPECT_NEAR(elastica_ratio(0.01), 0.01 / 8, 1e-7); // a beam under its own weight: w L^4 / 8 B
   const char* shared = std::getenv("SLOPER_SHARED");
-  if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
+  if (!shared)
+    GTEST_SKIP() << "SLOPER_SHARED is not set";
   const std::string path = std::string(shared) + "/check/elastica.json";
   const io::Json json = io::read_json(path);
   for (const auto& row : json.at("cantilever"))
@@ -183,7 +191,8 @@ TEST(StickSlip, the_friction_that_holds_a_buckled_sheet_s_end_is_within_5_percen
   const HexSheet s = make_hex_sheet(n + 1, dx, 42, fabric);
   std::vector<Vec3> x = s.x;
   const double width = 42 * dx / std::sqrt(0.75);
-  for (Vec3& p : x) p.y() = 0.002 * std::sin(M_PI * std::max(0.0, p.x() - 0.5 * dx) / length);
+  for (Vec3& p : x)
+    p.y() = 0.002 * std::sin(M_PI * std::max(0.0, p.x() - 0.5 * dx) / length);
   ClothSolver solver(s.mesh, x);
   solver.emplace<MembraneEffect>(s.mesh);
   solver.emplace<BendingEffect>(s.mesh);
@@ -191,7 +200,8 @@ TEST(StickSlip, the_friction_that_holds_a_buckled_sheet_s_end_is_within_5_percen
   for (int p : s.columns.back())
     pins.push_back({p, s.x[p], 1e4, Vec3::Zero()}); // first: the hinged edge
   for (int c = 0; c < 2; ++c)
-    for (int p : s.columns[c]) pins.push_back({p, s.x[p], 1e4, Vec3::Zero()});
+    for (int p : s.columns[c])
+      pins.push_back({p, s.x[p], 1e4, Vec3::Zero()});
   const std::size_t n_edge = s.columns.back().size();
   auto& held = solver.emplace<PinsEffect>(pins);
   for (double eps : {0.05, 0.1, 0.2, 0.3}) {

@@ -22,7 +22,7 @@ body::Body make_slope(double angle) {
   auto& m = body.skin;
   auto add_side = [&](const Vec3& corner, const Vec3& a, const Vec3& b, int na,
                       int nb) { // outward is a x b
-    const int first = static_cast<int>(m.positions.size());
+    const int first = std::ssize(m.positions);
     for (int i = 0; i <= na; ++i)
       for (int j = 0; j <= nb; ++j)
         m.positions.push_back(turn * (corner + a * i / na + b * j / nb));

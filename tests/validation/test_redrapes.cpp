@@ -42,15 +42,17 @@ Distribution drape_again(const Material& material, double edge_m, int times,
     folds.push_back(r.folds);
     out.least_folds = std::min(out.least_folds, folds.back());
     out.most_folds = std::max(out.most_folds, folds.back());
-    if (!plot.empty()) plot_point("redrapes", plot, folds.back(), coefficient.back());
+    if (!plot.empty())
+      plot_point("redrapes", plot, folds.back(), coefficient.back());
   }
   out.coefficient = spread_figure(coefficient);
   out.folds = spread_figure(folds);
   return out;
 }
 
-#define SLOW_TEST() \
-  if (!std::getenv("SLOPER_VALIDATION")) GTEST_SKIP() << "slow: run it with make validation"
+#define SLOW_TEST()                      \
+  if (!std::getenv("SLOPER_VALIDATION")) \
+  GTEST_SKIP() << "slow: run it with make validation"
 
 } // namespace
 

@@ -25,15 +25,20 @@ constexpr double G = 9.80665;
 enum class Model { SPRINGS, TRIANGLES, FEM };
 constexpr Model MODELS[] = {Model::SPRINGS, Model::TRIANGLES, Model::FEM};
 const char* name_of(Model m) {
-  if (m == Model::SPRINGS) return "springs";
+  if (m == Model::SPRINGS)
+    return "springs";
   return m == Model::TRIANGLES ? "triangles" : "fem";
 }
 
 void add_stretch(ClothSolver& solver, const ClothMesh& mesh, Model model) {
-  if (model == Model::SPRINGS) solver.emplace<EdgeSpringEffect>(mesh);
-  if (model == Model::TRIANGLES) solver.emplace<TriangleStretchEffect>(mesh);
-  if (model == Model::FEM) solver.emplace<MembraneEffect>(mesh);
-  if (model != Model::FEM) solver.emplace<ShearEffect>(mesh);
+  if (model == Model::SPRINGS)
+    solver.emplace<EdgeSpringEffect>(mesh);
+  if (model == Model::TRIANGLES)
+    solver.emplace<TriangleStretchEffect>(mesh);
+  if (model == Model::FEM)
+    solver.emplace<MembraneEffect>(mesh);
+  if (model != Model::FEM)
+    solver.emplace<ShearEffect>(mesh);
 }
 
 Fabric plain(double stretch) {
@@ -64,15 +69,18 @@ TEST(Catenary, a_strip_between_two_points_hangs_as_a_chain_within_1_percent) {
     const int n = 50;
     Sheet s = make_sheet(n, 2, length / n, length / n, plain(5000));
     std::vector<Vec3> x = s.x;
-    for (Vec3& p : x) p.x() *= span / length; // compressed at the start: it must find its length
-    for (Vec3& p : x) p.y() = -0.01 * std::sin(M_PI * p.x() / span);
+    for (Vec3& p : x)
+      p.x() *= span / length; // compressed at the start: it must find its length
+    for (Vec3& p : x)
+      p.y() = -0.01 * std::sin(M_PI * p.x() / span);
     ClothSolver solver(s.mesh, x);
     add_stretch(solver, s.mesh, model);
     solver.emplace<BendingEffect>(s.mesh);
     solver.emplace<GravityEffect>(s.mesh, Vec3(0, -G, 0));
     std::vector<Pin> pins;
     for (int r = 0; r <= s.ny; ++r)
-      for (int c : {0, n}) pins.push_back({s.at(c, r), x[s.at(c, r)], 1e5, Vec3::Zero()});
+      for (int c : {0, n})
+        pins.push_back({s.at(c, r), x[s.at(c, r)], 1e5, Vec3::Zero()});
     solver.emplace<PinsEffect>(pins);
     EXPECT_GT(go_to_rest(solver), 0);
     const double ours = -solver.x()[s.at(n / 2, 1)].y();
@@ -94,13 +102,15 @@ TEST(HangingSquare, grows_under_its_own_weight_by_rho_g_L2_over_2Y) {
     const int n = 20;
     HexSheet s =
         make_hex_sheet(n, side / n, 17, fabric); // springs are calibrated for equilateral triangles
-    for (Vec3& p : s.x) p = Vec3(p.z(), -p.x(), 0); // upright: the first column is the upper edge
+    for (Vec3& p : s.x)
+      p = Vec3(p.z(), -p.x(), 0); // upright: the first column is the upper edge
     ClothSolver solver(s.mesh, s.x);
     add_stretch(solver, s.mesh, model);
     solver.emplace<BendingEffect>(s.mesh);
     solver.emplace<GravityEffect>(s.mesh, Vec3(0, -G, 0));
     std::vector<Pin> pins;
-    for (int p : s.columns[0]) pins.push_back({p, s.x[p], 1e5, Vec3::Zero()});
+    for (int p : s.columns[0])
+      pins.push_back({p, s.x[p], 1e5, Vec3::Zero()});
     solver.emplace<PinsEffect>(pins);
     EXPECT_GT(go_to_rest(solver), 0);
     const auto& hem = s.columns.back();
@@ -147,7 +157,8 @@ TEST(Drum, under_pressure_bulges_as_hencky_s_membrane_within_3_percent) {
       for (int k = 0; k < ring; ++k) {
         const int outer = side * ring + k, inner = side * (ring - 1) + k;
         add(id(ring, outer), id(ring, outer + 1), id(ring - 1, inner));
-        if (k + 1 < ring) add(id(ring - 1, inner), id(ring, outer + 1), id(ring - 1, inner + 1));
+        if (k + 1 < ring)
+          add(id(ring - 1, inner), id(ring, outer + 1), id(ring - 1, inner + 1));
       }
   const ClothMesh mesh = make_cloth_mesh(static_cast<int>(flat.size()), triangles, {fabric});
   std::vector<Vec3> x;
@@ -181,16 +192,21 @@ TEST(Energy, never_grows_without_input) {
         Random random(7);
         for (Vec3& p : s.x) {
           p *= scale;
-          for (int k = 0; k < 3; ++k) p[k] += random.uniform(-0.002, 0.002);
+          for (int k = 0; k < 3; ++k)
+            p[k] += random.uniform(-0.002, 0.002);
         }
         ClothSolver solver(s.mesh, s.x);
         const auto potential = [&] {
           const auto& x = solver.x();
           double sum = BendingEffect(s.mesh).energy(x);
-          if (model == Model::SPRINGS) sum += EdgeSpringEffect(s.mesh).energy(x);
-          if (model == Model::TRIANGLES) sum += TriangleStretchEffect(s.mesh).energy(x);
-          if (model == Model::FEM) sum += MembraneEffect(s.mesh).energy(x);
-          if (model != Model::FEM) sum += ShearEffect(s.mesh).energy(x);
+          if (model == Model::SPRINGS)
+            sum += EdgeSpringEffect(s.mesh).energy(x);
+          if (model == Model::TRIANGLES)
+            sum += TriangleStretchEffect(s.mesh).energy(x);
+          if (model == Model::FEM)
+            sum += MembraneEffect(s.mesh).energy(x);
+          if (model != Model::FEM)
+            sum += ShearEffect(s.mesh).energy(x);
           return sum;
         };
         add_stretch(solver, s.mesh, model);

@@ -35,7 +35,8 @@ std::vector<Vec2> hung_sleeve(double gamma, int around, int along, bool by_angle
   std::vector<RestTriangle> triangles = flat.mesh.triangles;
   for (RestTriangle& t : triangles)
     for (int& p : t.particle)
-      if (p >= n) p = flat.columns.front()[p - n];
+      if (p >= n)
+        p = flat.columns.front()[p - n];
   std::vector<Vec3> x;
   const double radius = SLEEVE_HALF / M_PI;
   for (int i = 0; i < n; ++i) {
@@ -47,10 +48,12 @@ std::vector<Vec2> hung_sleeve(double gamma, int around, int along, bool by_angle
   solver.emplace<MembraneEffect>(mesh);
   if (by_angles)
     solver.emplace<OrthotropicBendingEffect>(mesh, std::vector<double>(mesh.hinges.size()));
-  else solver.emplace<OrthotropicBendingEffect>(mesh);
+  else
+    solver.emplace<OrthotropicBendingEffect>(mesh);
   solver.emplace<GravityEffect>(mesh, Vec3(0, -9.80665, 0));
   std::vector<Pin> pins;
-  for (int p : flat.columns.front()) pins.push_back({p, x[p], 1e4, Vec3::Zero()});
+  for (int p : flat.columns.front())
+    pins.push_back({p, x[p], 1e4, Vec3::Zero()});
   solver.emplace<PinsEffect>(pins);
   EXPECT_GT(go_to_rest(solver), 0) << "gamma " << gamma;
   std::vector<Vec2> section;
@@ -73,8 +76,9 @@ double height_over_width(const std::vector<Vec2>& section) {
   return (high.y() - low.y()) / (high.x() - low.x());
 }
 
-#define SLOW_TEST() \
-  if (!std::getenv("SLOPER_VALIDATION")) GTEST_SKIP() << "slow: run it with make validation"
+#define SLOW_TEST()                      \
+  if (!std::getenv("SLOPER_VALIDATION")) \
+  GTEST_SKIP() << "slow: run it with make validation"
 
 } // namespace
 
@@ -87,8 +91,10 @@ TEST(Sleeve, hangs_over_a_rod_as_a_heavy_loop) {
       print_figure("H/W of a sleeve over a rod, " + name + (by_angles ? ", angles" : ""),
                    height_over_width(ours), height_over_width(exact));
       EXPECT_NEAR(height_over_width(ours) / height_over_width(exact), 1, 0.03) << name;
-      if (by_angles) continue;
-      for (const Vec2& p : exact) plot_point("sleeve", "heavy loop", p.x(), p.y());
+      if (by_angles)
+        continue;
+      for (const Vec2& p : exact)
+        plot_point("sleeve", "heavy loop", p.x(), p.y());
       for (const Vec2& p : ours)
         plot_point("sleeve", name, p.x() / SLEEVE_HALF, p.y() / SLEEVE_HALF);
     }

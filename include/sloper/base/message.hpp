@@ -15,15 +15,20 @@ namespace sloper {
 /// single hyphens
 constexpr bool is_message_id(std::string_view text) {
   const std::size_t dot = text.find('.');
-  if (dot == 0 || dot == std::string_view::npos || dot + 1 == text.size()) return false;
+  if (dot == 0 || dot == std::string_view::npos || dot + 1 == text.size())
+    return false;
   char before = '-'; // no word begins or ends with a hyphen
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
     const bool is_letter = c >= 'a' && c <= 'z', is_digit = c >= '0' && c <= '9';
-    if (k == dot) before = '-';
-    else if (is_letter || (is_digit && k > dot)) before = c;
-    else if (c == '-' && k > dot && before != '-') before = c;
-    else return false;
+    if (k == dot)
+      before = '-';
+    else if (is_letter || (is_digit && k > dot))
+      before = c;
+    else if (c == '-' && k > dot && before != '-')
+      before = c;
+    else
+      return false;
   }
   return before != '-';
 }
@@ -33,7 +38,8 @@ constexpr bool is_message_id(std::string_view text) {
 template<std::size_t N> struct IdText {
   /// @param text  of the literal, with the 0 at its end; another form than an id's does not compile
   constexpr IdText(const char (&text)[N]) {
-    if (!is_message_id({text, N - 1})) throw "a message id is topic.fact in small letters";
+    if (!is_message_id({text, N - 1}))
+      throw "a message id is topic.fact in small letters";
     std::copy_n(text, N, characters);
   }
   char characters[N]; ///< with the 0 at their end

@@ -45,7 +45,8 @@ double parallel_sum(std::size_t n, std::size_t grain, std::vector<double>& part,
   parallel_for(n, grain,
                [&](std::size_t begin, std::size_t end) { part[begin / grain] = term(begin, end); });
   double sum = 0;
-  for (double p : part) sum += p;
+  for (double p : part)
+    sum += p;
   return sum;
 }
 

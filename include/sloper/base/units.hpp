@@ -14,7 +14,11 @@ inline constexpr double GF_PER_CM = 0.980665; ///< N/m per gf/cm
 inline constexpr double GF_CM2_PER_CM = 9.80665e-5;
 inline constexpr double G_PER_CM2 = 10.0; ///< kg/m2 per g/cm2
 /// Degrees to radians, and back.
-inline double radians(double degrees) { return degrees * PI / 180.0; }
+inline double radians(double degrees) {
+  return degrees * PI / 180.0;
+}
 /// Radians to degrees.
-inline double degrees(double radians) { return radians * 180.0 / PI; }
+inline double degrees(double radians) {
+  return radians * 180.0 / PI;
+}
 } // namespace sloper::units

@@ -12,7 +12,9 @@ namespace sloper::collision {
 inline constexpr std::size_t SEARCH_GRAIN = 512; ///< elements that one piece searches for
 
 /// Pieces of SEARCH_GRAIN elements that n elements make.
-inline std::size_t n_chunks(std::size_t n) { return (n + SEARCH_GRAIN - 1) / SEARCH_GRAIN; }
+inline std::size_t n_chunks(std::size_t n) {
+  return (n + SEARCH_GRAIN - 1) / SEARCH_GRAIN;
+}
 
 /// Runs find(begin, end, out) over the pieces of [0, n), in parallel, and joins what they found in
 /// the order of the pieces.
@@ -23,7 +25,8 @@ template<class Item, class Find> std::vector<Item> gather(std::size_t n, const F
     find(begin, end, found[begin / SEARCH_GRAIN]);
   });
   std::vector<Item> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  for (const auto& part : found)
+    all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 

@@ -31,12 +31,8 @@ public:
 
 private:
   std::array<int, 3> cube_of(const Vec3& place) const; ///< the nearest one of the region
-  Box3& at(int i, int j, int k) {
-    return m_cube[static_cast<std::size_t>((i * m_n[1] + j) * m_n[2] + k)];
-  }
-  const Box3& at(int i, int j, int k) const {
-    return m_cube[static_cast<std::size_t>((i * m_n[1] + j) * m_n[2] + k)];
-  }
+  Box3& at(int i, int j, int k) { return m_cube[(i * m_n[1] + j) * m_n[2] + k]; }
+  const Box3& at(int i, int j, int k) const { return m_cube[(i * m_n[1] + j) * m_n[2] + k]; }
 
   Box3 m_all; ///< of displacements, m
   Vec3 m_low = Vec3::Zero();

@@ -89,7 +89,8 @@ public:
       const int slot = m_nodes[node].first_slot();
       for (int lanes = overlapping(node, query); lanes; lanes &= lanes - 1) {
         const int i = std::countr_zero(static_cast<unsigned>(lanes));
-        if (slot + i >= first_slot) visit(slot + i);
+        if (slot + i >= first_slot)
+          visit(slot + i);
       }
     });
   }
@@ -149,21 +150,25 @@ inline int TriangleTree::overlapping(int node, const Dop& query) const {
   int mask = (1 << 4) - 1;
   if (n.child[3] == EMPTY) // what is infinite overlaps the bounds of what is not there, too
     for (int i = 1; i < 4; ++i)
-      if (n.child[i] == EMPTY) mask &= ~(1 << i);
+      if (n.child[i] == EMPTY)
+        mask &= ~(1 << i);
   for (int a = 0; a < 3; ++a)
     mask &= both_less_equal(Float4::load(n.low[a]), Float4::all(query.high[a]),
                             Float4::all(query.low[a]), Float4::load(n.high[a]));
-  if (m_axes == 3) return mask;
+  if (m_axes == 3)
+    return mask;
   const auto* extra = m_extra.data() + static_cast<std::size_t>(node) * (m_axes - 3);
   for (int a = 3; a < m_axes && mask; ++a, ++extra)
     for (int i = 0; i < 4; ++i)
-      if (!((*extra)[i] <= query.high[a] && query.low[a] <= (*extra)[4 + i])) mask &= ~(1 << i);
+      if (!((*extra)[i] <= query.high[a] && query.low[a] <= (*extra)[4 + i]))
+        mask &= ~(1 << i);
   return mask;
 }
 
 template<class Visit>
 void TriangleTree::visit_lowest(const Dop& query, int first_slot, Visit&& visit) const {
-  if (m_nodes.empty()) return;
+  if (m_nodes.empty())
+    return;
   int stack[128], top = 0; // at most three waiting siblings a level, and the tree is balanced
   stack[top++] = 0;
   while (top > 0) {
@@ -175,7 +180,8 @@ void TriangleTree::visit_lowest(const Dop& query, int first_slot, Visit&& visit)
     }
     for (int lanes = overlapping(index, query); lanes; lanes &= lanes - 1) {
       const int i = std::countr_zero(static_cast<unsigned>(lanes));
-      if (node.slot_end[i] > first_slot) stack[top++] = node.child[i];
+      if (node.slot_end[i] > first_slot)
+        stack[top++] = node.child[i];
     }
   }
 }

@@ -21,19 +21,21 @@ public:
 
   /// One more element, alone in its set. @returns it
   int add() {
-    m_parent.push_back(static_cast<int>(m_parent.size()));
+    m_parent.push_back(std::ssize(m_parent));
     return m_parent.back();
   }
 
   /// The element that stands for the set of i: the lowest of the set, where only unite() joined it.
   /// 0 <= i < size()
   int find(int i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
+    while (parent(i) != i)
+      i = parent(i) = parent(parent(i));
     return i;
   }
   /// The same, without shortening paths.
   int find(int i) const {
-    while (m_parent[static_cast<std::size_t>(i)] != i) i = m_parent[static_cast<std::size_t>(i)];
+    while (m_parent[i] != i)
+      i = m_parent[i];
     return i;
   }
 
@@ -58,15 +60,16 @@ public:
     std::vector<int> of(size()), number(size(), -1);
     int count = 0;
     for (std::size_t i = 0; i < size(); ++i) {
-      int& own = number[static_cast<std::size_t>(find(static_cast<int>(i)))];
-      if (own < 0) own = count++;
+      int& own = number[find(static_cast<int>(i))];
+      if (own < 0)
+        own = count++;
       of[i] = own;
     }
     return of;
   }
 
 private:
-  int& parent(int i) { return m_parent[static_cast<std::size_t>(i)]; }
+  int& parent(int i) { return m_parent[i]; }
   std::vector<int> m_parent;
 };
 

@@ -30,7 +30,8 @@ std::string iso_name(std::string name) {
   if (name.size() > 2 && (name.ends_with("_l") || name.ends_with("_r")))
     name.resize(name.size() - 2);
   for (const auto& [ours, iso] : ISO_NAMES)
-    if (name == ours) return iso;
+    if (name == ours)
+      return iso;
   return "";
 }
 

@@ -14,7 +14,8 @@ namespace {
 class Table {
 public:
   void add(const std::string& name, std::optional<double> value) {
-    if (value && std::isfinite(*value) && *value > 0) m_rows.emplace_back(name, *value);
+    if (value && std::isfinite(*value) && *value > 0)
+      m_rows.emplace_back(name, *value);
   }
   const std::vector<std::pair<std::string, double>>& rows() const { return m_rows; }
 
@@ -56,7 +57,8 @@ std::optional<double> height(const Body& b, const std::string& name) {
 }
 
 std::optional<double> between(const Body& b, const std::string& from, const std::string& to) {
-  if (!b.has_landmark(from) || !b.has_landmark(to)) return std::nullopt;
+  if (!b.has_landmark(from) || !b.has_landmark(to))
+    return std::nullopt;
   return (b.landmark(from) - b.landmark(to)).norm();
 }
 
@@ -88,10 +90,12 @@ std::optional<double> along(const Body& b, const std::vector<std::string>& names
 /// the middle.
 std::vector<Vec2> trunk_hull(const Body& b, double y, double reach) {
   for (const Loop& loop : cut(b.skin, level_plane(y))) {
-    if (loop.area <= 0 || std::abs(loop.centroid.x()) > 0.1) continue;
+    if (loop.area <= 0 || std::abs(loop.centroid.x()) > 0.1)
+      continue;
     std::vector<Vec2> points;
     for (const auto& s : loop.segments)
-      if (std::abs(s[0].x()) <= reach) points.push_back(s[0]);
+      if (std::abs(s[0].x()) <= reach)
+        points.push_back(s[0]);
     return convex_hull(std::move(points));
   }
   return {};
@@ -100,9 +104,11 @@ std::vector<Vec2> trunk_hull(const Body& b, double y, double reach) {
 /// The share of a taut girth that lies behind the trunk's broadest places, as a length.
 std::optional<double> back_width(const Body& b, const std::string& level) {
   const auto it = b.levels.find(level);
-  if (it == b.levels.end()) return std::nullopt;
+  if (it == b.levels.end())
+    return std::nullopt;
   const std::vector<Vec2> hull = trunk_hull(b, it->second.y, 0.5 * it->second.width_m + 0.002);
-  if (hull.size() < 3) return std::nullopt;
+  if (hull.size() < 3)
+    return std::nullopt;
   const auto by_x = [](const Vec2& p, const Vec2& q) { return p.x() < q.x(); };
   const Vec2 right = *std::min_element(hull.begin(), hull.end(), by_x),
              left = *std::max_element(hull.begin(), hull.end(), by_x);
@@ -110,7 +116,8 @@ std::optional<double> back_width(const Body& b, const std::string& level) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 &p = hull[i], &q = hull[(i + 1) % hull.size()], middle = 0.5 * (p + q);
     const double w = (middle.x() - right.x()) / std::max(left.x() - right.x(), 1e-9);
-    if (middle.y() < right.y() + w * (left.y() - right.y())) length += (q - p).norm();
+    if (middle.y() < right.y() + w * (left.y() - right.y()))
+      length += (q - p).norm();
   }
   return length;
 }
@@ -118,7 +125,8 @@ std::optional<double> back_width(const Body& b, const std::string& level) {
 /// Taut length over the back in the middle plane, from one height down to another.
 std::optional<double> over_the_back(const Body& b, std::optional<double> top,
                                     std::optional<double> bottom) {
-  if (!top || !bottom || *top <= *bottom || b.skin.triangles.empty()) return std::nullopt;
+  if (!top || !bottom || *top <= *bottom || b.skin.triangles.empty())
+    return std::nullopt;
   const Plane middle{Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitY()};
   constexpr double STEP = 0.005; // m
   const int n = static_cast<int>((*top - *bottom) / STEP) + 1;
@@ -136,22 +144,26 @@ std::optional<double> over_the_back(const Body& b, std::optional<double> top,
   // a tape bridges hollows: the lower hull of depth over height
   std::vector<Vec2> taut;
   for (int k = 0; k < n; ++k) {
-    if (rear[k] > 1e299) continue;
+    if (rear[k] > 1e299)
+      continue;
     const Vec2 p(k * STEP, rear[k]);
     while (taut.size() > 1) {
       const Vec2 u = taut.back() - taut[taut.size() - 2], v = p - taut[taut.size() - 2];
-      if (u.x() * v.y() - u.y() * v.x() > 0) break;
+      if (u.x() * v.y() - u.y() * v.x() > 0)
+        break;
       taut.pop_back();
     }
     taut.push_back(p);
   }
   double length = 0;
-  for (std::size_t k = 1; k < taut.size(); ++k) length += (taut[k] - taut[k - 1]).norm();
+  for (std::size_t k = 1; k < taut.size(); ++k)
+    length += (taut[k] - taut[k - 1]).norm();
   return length;
 }
 
 std::optional<double> both_sides(const Body& b, const std::string& name) {
-  if (!b.has_landmark(name + "_l") || !b.has_landmark(name + "_r")) return std::nullopt;
+  if (!b.has_landmark(name + "_l") || !b.has_landmark(name + "_r"))
+    return std::nullopt;
   return b.landmark(name + "_l").x() - b.landmark(name + "_r").x();
 }
 

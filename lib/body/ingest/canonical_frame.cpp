@@ -41,14 +41,17 @@ std::vector<LengthUnit> likely_units(double height) {
 LengthUnit choose_unit(double height, const SizeOptions& size, const std::string& file) {
   auto within = [&](const LengthUnit& unit, const char* option) {
     const double stature = height * unit.metres;
-    if (stature >= MIN_STATURE && stature <= MAX_STATURE) return unit;
+    if (stature >= MIN_STATURE && stature <= MAX_STATURE)
+      return unit;
     throw input_error("scan.wrong-size"_id, file, "",
                       "the body would be " + number_text("%.3g", stature) + " m tall in " +
                           unit.name,
                       std::string("a person is 0.5 to 2.5 m; give another ") + option);
   };
-  if (size.stature_m > 0) return within({"given stature", size.stature_m / height, 0}, "--stature");
-  if (size.metres_per_unit > 0) return within({"given scale", size.metres_per_unit, 0}, "--scale");
+  if (size.stature_m > 0)
+    return within({"given stature", size.stature_m / height, 0}, "--stature");
+  if (size.metres_per_unit > 0)
+    return within({"given scale", size.metres_per_unit, 0}, "--scale");
   if (size.unit != "auto") {
     const auto named = std::find_if(std::begin(LENGTH_UNITS), std::end(LENGTH_UNITS),
                                     [&](const LengthUnit& u) { return size.unit == u.name; });
@@ -79,8 +82,10 @@ Vec2 leg_line(const std::vector<std::vector<Vec2>>& layers, int first, int last,
   Vec2 sum = Vec2::Zero();
   for (int k = first; k < last; ++k) {
     Vec2 middle = Vec2::Zero();
-    for (const Vec2& p : layers[k]) middle += p;
-    if (layers[k].size() < 8) continue;
+    for (const Vec2& p : layers[k])
+      middle += p;
+    if (layers[k].size() < 8)
+      continue;
     middle /= static_cast<double>(layers[k].size());
     // two means, started on both sides of the middle
     Vec2 center[2] = {middle - 0.1 * rough_axis, middle + 0.1 * rough_axis};
@@ -93,10 +98,12 @@ Vec2 leg_line(const std::vector<std::vector<Vec2>>& layers, int first, int last,
         ++n[side];
       }
       for (int side = 0; side < 2; ++side)
-        if (n[side]) center[side] = total[side] / n[side];
+        if (n[side])
+          center[side] = total[side] / n[side];
     }
     Vec2 line = center[1] - center[0];
-    if (line.dot(rough_axis) < 0) line = -line;
+    if (line.dot(rough_axis) < 0)
+      line = -line;
     sum += line;
   }
   return sum.norm() > 1e-9 ? Vec2(sum.normalized()) : Vec2::Zero();
@@ -107,9 +114,11 @@ Vec2 leg_line(const std::vector<std::vector<Vec2>>& layers, int first, int last,
 std::string other_guess(double stature_m, const LengthUnit& own) {
   constexpr double NEAR = 0.6; // factors of e, as unlikeliness() has them
   const std::vector<LengthUnit> likely = likely_units(stature_m / own.metres);
-  if (likely.size() < 2 || likely.front().metres != own.metres) return "";
+  if (likely.size() < 2 || likely.front().metres != own.metres)
+    return "";
   const double other = stature_m / own.metres * likely[1].metres;
-  if (unlikeliness(likely[1], other) > unlikeliness(own, stature_m) + NEAR) return "";
+  if (unlikeliness(likely[1], other) > unlikeliness(own, stature_m) + NEAR)
+    return "";
   return number_text("%.2f m in ", other) + likely[1].name;
 }
 
@@ -129,7 +138,8 @@ Vec3 transform(const Mat4& m, const Vec3& p) {
 }
 
 void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame) {
-  for (Vec3& p : points) p = transform(frame.scan_to_body, p);
+  for (Vec3& p : points)
+    p = transform(frame.scan_to_body, p);
   // the mirror plane's normal (cos, -sin) becomes +x
   if (const auto mirror = mirror_plane(points, frame.stature_m))
     frame.scan_to_body =
@@ -170,7 +180,8 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   constexpr int N_LAYERS = 100;
   std::vector<std::vector<Vec2>> layers(N_LAYERS + 1);
   for (std::size_t v = 0; v < scan.positions.size(); ++v) {
-    if (!sorted.is_body[v]) continue;
+    if (!sorted.is_body[v])
+      continue;
     const Vec3 p = upright * scan.positions[v] * chosen.metres;
     const int k = static_cast<int>(N_LAYERS * (p.y() - sorted.low * chosen.metres) / stature);
     layers[std::clamp(k, 0, N_LAYERS)].emplace_back(p.x(), p.z());
@@ -191,27 +202,32 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   for (int k = 50; k < 72; ++k) {
     std::vector<Vec2> near;
     for (const Vec2& p : layers[k])
-      if ((p - calves.mean).norm() < 0.16 * stature) near.push_back(p);
-    if (near.size() > 8) doubled += doubled_axis(moments_of(near, cell)) / 22;
+      if ((p - calves.mean).norm() < 0.16 * stature)
+        near.push_back(p);
+    if (near.size() > 8)
+      doubled += doubled_axis(moments_of(near, cell)) / 22;
   }
   doubled += 2 * doubled_axis(calves);
   double angle = 0.5 * std::atan2(doubled.y(), doubled.x());
   Vec2 axis(std::cos(angle), std::sin(angle));
   const Vec2 legs = leg_line(layers, 10, 30, axis);
-  if (legs.norm() > 0.5) axis = (axis + 2 * (legs.dot(axis) < 0 ? Vec2(-legs) : legs)).normalized();
+  if (legs.norm() > 0.5)
+    axis = (axis + 2 * (legs.dot(axis) < 0 ? Vec2(-legs) : legs)).normalized();
   // facing: the foot reaches further forward of the ankle than back of it
   Vec2 forward(-axis.y(), axis.x());
   const Moments ankles = moments_of(collect(5, 9), cell);
   double front = 0, back = 0;
   std::vector<double> reach;
-  for (const Vec2& p : collect(0, 4)) reach.push_back((p - ankles.mean).dot(forward));
+  for (const Vec2& p : collect(0, 4))
+    reach.push_back((p - ankles.mean).dot(forward));
   if (reach.size() > 20) {
     std::sort(reach.begin(), reach.end());
     front = reach[reach.size() * 98 / 100];
     back = -reach[reach.size() * 2 / 100];
   }
   const double margin = std::abs(front - back) / std::max(front + back, 1e-9);
-  if (back > front) forward = -forward;
+  if (back > front)
+    forward = -forward;
   if (margin < 0.15)
     frame.findings.push_back({"scan.front-unclear"_id, "warning",
                               "the feet hardly show which way the body faces", "feet"});

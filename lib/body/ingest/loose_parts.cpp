@@ -28,13 +28,17 @@ struct Shell {
 /// Component of every vertex, with vertices at one place joined: texture seams and STL.
 std::vector<int> shells_of(const TriangleMesh& scan) {
   std::vector<int> shell = connected_components(scan.positions.size(), scan.triangles);
-  if (shell.empty() || *std::max_element(shell.begin(), shell.end()) == 0) return shell;
+  if (shell.empty() || *std::max_element(shell.begin(), shell.end()) == 0)
+    return shell;
   TriangleMesh joined = scan;
   std::vector<int> place(scan.positions.size());
-  for (std::size_t v = 0; v < place.size(); ++v) place[v] = static_cast<int>(v);
-  if (!weld(joined, place)) return shell;
+  for (std::size_t v = 0; v < place.size(); ++v)
+    place[v] = static_cast<int>(v);
+  if (!weld(joined, place))
+    return shell;
   const std::vector<int> of_place = connected_components(joined.positions.size(), joined.triangles);
-  for (std::size_t v = 0; v < shell.size(); ++v) shell[v] = of_place[place[v]];
+  for (std::size_t v = 0; v < shell.size(); ++v)
+    shell[v] = of_place[place[v]];
   return shell;
 }
 
@@ -42,7 +46,8 @@ std::vector<int> shells_of(const TriangleMesh& scan) {
 std::vector<Shell> measured(const TriangleMesh& scan, const std::vector<int>& shell) {
   std::vector<Shell> shells(
       static_cast<std::size_t>(*std::max_element(shell.begin(), shell.end())) + 1);
-  for (std::size_t v = 0; v < shell.size(); ++v) shells[shell[v]].box.add(scan.positions[v]);
+  for (std::size_t v = 0; v < shell.size(); ++v)
+    shells[shell[v]].box.add(scan.positions[v]);
   for (const Triangle& t : scan.triangles)
     shells[shell[t[0]]].area +=
         area_normal(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]).norm();
@@ -58,7 +63,8 @@ TriangleMesh part_of(const TriangleMesh& scan, const std::vector<int>& shell, in
       part.positions.push_back(scan.positions[v]);
     }
   for (const Triangle& t : scan.triangles)
-    if (shell[t[0]] == which) part.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    if (shell[t[0]] == which)
+      part.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   return part;
 }
 
@@ -73,7 +79,8 @@ bool is_whole(TriangleMesh part, double height) {
 
 /// @param low, high heights of a loose part, of the body's
 const char* where_of(double low, double high) {
-  if (0.5 * (low + high) < FEET) return "at the feet";
+  if (0.5 * (low + high) < FEET)
+    return "at the feet";
   return high > HEAD ? "at the head" : "on the body";
 }
 
@@ -96,19 +103,24 @@ std::string described(const Group& group, const char* where, double height, cons
 
 LooseParts find_loose_parts(const TriangleMesh& scan, const std::string& up_axis) {
   LooseParts parts;
-  if (scan.triangles.empty()) return parts;
+  if (scan.triangles.empty())
+    return parts;
   const std::vector<int> shell = shells_of(scan);
   std::vector<Shell> shells = measured(scan, shell);
-  if (shells.size() == 1) return parts;
+  if (shells.size() == 1)
+    return parts;
   const auto by_area = [](const Shell& a, const Shell& b) { return a.area < b.area; };
   const int largest =
       static_cast<int>(std::max_element(shells.begin(), shells.end(), by_area) - shells.begin());
   double all = 0;
-  for (const Shell& each : shells) all += each.area;
-  if (shells[largest].area < LEAST_BODY_AREA * all) return parts;
+  for (const Shell& each : shells)
+    all += each.area;
+  if (shells[largest].area < LEAST_BODY_AREA * all)
+    return parts;
   const TriangleMesh body = part_of(scan, shell, largest);
   const SegmentedScan alone = segment_scan(body, up_axis);
-  if (!shows_a_person(alone)) return parts;
+  if (!shows_a_person(alone))
+    return parts;
   const double height = alone.high - alone.low;
   const Box3& box = shells[largest].box;
   Box3 around = box;
@@ -121,12 +133,14 @@ LooseParts find_loose_parts(const TriangleMesh& scan, const std::string& up_axis
     const bool is_near = (other.box.low - around.low).minCoeff() >= 0 &&
                          (around.high - other.box.high).minCoeff() >= 0;
     other.is_loose = static_cast<int>(k) != largest && other.area > 0 && is_near;
-    if (!other.is_loose) continue;
+    if (!other.is_loose)
+      continue;
     const double low = std::min(other.box.low.dot(alone.up), other.box.high.dot(alone.up)),
                  high = std::max(other.box.low.dot(alone.up), other.box.high.dot(alone.up));
     const bool sticks_out =
         high > alone.high + LEAST_STICK_OUT * height || low < alone.low - LEAST_STICK_OUT * height;
-    if (!whole && !sticks_out) continue;
+    if (!whole && !sticks_out)
+      continue;
     Group& group = groups[where_of((low - alone.low) / height, (high - alone.low) / height)];
     ++group.shells;
     group.box.add(other.box.low);
@@ -143,9 +157,11 @@ LooseParts find_loose_parts(const TriangleMesh& scan, const std::string& up_axis
            what + ", beyond the largest one, which is not whole without: part of the stature",
            "head_tip"});
   }
-  if (!whole || groups.empty()) return parts;
+  if (!whole || groups.empty())
+    return parts;
   parts.is_extra.resize(shell.size());
-  for (std::size_t v = 0; v < shell.size(); ++v) parts.is_extra[v] = shells[shell[v]].is_loose;
+  for (std::size_t v = 0; v < shell.size(); ++v)
+    parts.is_extra[v] = shells[shell[v]].is_loose;
   return parts;
 }
 

@@ -29,7 +29,8 @@ RadialLayer radial_layer(const std::vector<Vec2>& points, const Vec2& center, do
   for (const Vec2& p : points) {
     const Vec2 d = p - center;
     const double r = d.norm();
-    if (r > reach) continue;
+    if (r > reach)
+      continue;
     const int k =
         static_cast<int>((std::atan2(d.y(), d.x()) + units::PI) / (2 * units::PI) * N_ANGLES);
     bins[std::clamp(k, 0, N_ANGLES - 1)].push_back(r);
@@ -48,15 +49,18 @@ RadialLayer radial_layer(const std::vector<Vec2>& points, const Vec2& center, do
 /// Polynomial of Abramowitz and Stegun 4.4.49.
 double quick_angle(double y, double x) {
   const double ax = std::abs(x), ay = std::abs(y), larger = std::max(ax, ay);
-  if (larger == 0) return 0;
+  if (larger == 0)
+    return 0;
   const double t = std::min(ax, ay) / larger, u = t * t;
   double angle = 0.0028662257;
   for (const double c : {-0.0161657367, 0.0429096138, -0.0752896400, 0.1065626393, -0.1420889944,
                          0.1999355085, -0.3333314528, 1.0})
     angle = angle * u + c;
   angle *= t;
-  if (ay > ax) angle = units::PI / 2 - angle;
-  if (x < 0) angle = units::PI - angle;
+  if (ay > ax)
+    angle = units::PI / 2 - angle;
+  if (x < 0)
+    angle = units::PI - angle;
   return y < 0 ? -angle : angle;
 }
 
@@ -69,21 +73,25 @@ double asymmetry(std::span<const RadialLayer> layers, double angle, double offse
   misses.clear();
   for (const RadialLayer& layer : layers)
     for (int k = 0; k < N_ANGLES; ++k) {
-      if (layer.radius[k] < 0) continue;
+      if (layer.radius[k] < 0)
+        continue;
       const Vec2& p = layer.outline[k];
       const Vec2 q = p - 2 * (normal.dot(p) - offset) * normal - layer.center;
       const double column = (quick_angle(q.y(), q.x()) + units::PI) / (2 * units::PI) * N_ANGLES -
                             0.5; // -0.5 to N_ANGLES - 0.5
       const int a = column < 0 ? N_ANGLES - 1 : static_cast<int>(column),
                 b = a + 1 == N_ANGLES ? 0 : a + 1;
-      if (layer.radius[a] < 0 || layer.radius[b] < 0) continue;
+      if (layer.radius[a] < 0 || layer.radius[b] < 0)
+        continue;
       const double w = column - std::floor(column);
       misses.push_back(std::abs(q.norm() - (1 - w) * layer.radius[a] - w * layer.radius[b]));
     }
-  if (misses.size() < FEWEST) return 1e300;
+  if (misses.size() < FEWEST)
+    return 1e300;
   const auto middle = place_rank(misses, misses.size() * 6 / 10);
   double sum = 0;
-  for (auto it = misses.begin(); it != middle; ++it) sum += *it;
+  for (auto it = misses.begin(); it != middle; ++it)
+    sum += *it;
   return sum / static_cast<double>(middle - misses.begin());
 }
 
@@ -99,7 +107,8 @@ std::vector<RadialLayer> trunk_outlines(const std::vector<Vec3>& points, double 
   }
   std::vector<RadialLayer> outlines;
   for (int k = 0; k < N; ++k) {
-    if (layers[k].size() < 40) continue;
+    if (layers[k].size() < 40)
+      continue;
     Vec2 center = moments_of(layers[k], stature / 150).mean;
     center.x() *= 0.5;
     outlines.push_back(radial_layer(layers[k], center, 0.16 * stature));
@@ -121,7 +130,8 @@ Moments moments_of(const std::vector<Vec2>& points, double cell) {
   for (const auto& c : cells)
     m.mean += cell * Vec2(static_cast<double>(c.first), static_cast<double>(c.second));
   m.n = static_cast<int>(cells.size());
-  if (m.n == 0) return m;
+  if (m.n == 0)
+    return m;
   m.mean /= m.n;
   for (const auto& c : cells) {
     const Vec2 d =
@@ -155,7 +165,8 @@ std::optional<MirrorPlane> mirror_plane(const std::vector<Vec3>& points, double 
           best_offset = offset + j * offset_step;
         }
       }
-    if (best > 1e299) return std::nullopt;
+    if (best > 1e299)
+      return std::nullopt;
     angle = best_angle;
     offset = best_offset;
     angle_step /= 2.5;
@@ -182,14 +193,16 @@ std::optional<double> mirror_roll(const std::vector<Vec3>& points, double statur
           offset = around + i * step;
         }
     }
-    if (best < 1e299) middles.emplace_back(group[GROUP / 2].height, offset);
+    if (best < 1e299)
+      middles.emplace_back(group[GROUP / 2].height, offset);
   }
   std::vector<double> slopes; // their median (Theil 1950, Sen 1968)
   for (std::size_t i = 0; i < middles.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (const double rise = middles[i].x() - middles[j].x(); rise > 0.1 * stature)
         slopes.push_back((middles[i].y() - middles[j].y()) / rise);
-  if (slopes.size() < 8) return std::nullopt;
+  if (slopes.size() < 8)
+    return std::nullopt;
   return std::atan(upper_median(slopes));
 }
 

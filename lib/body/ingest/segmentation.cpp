@@ -39,7 +39,8 @@ public:
   int of_vertex(std::size_t v) const { return m_of_vertex[v]; }
   int extent(int axis) const { return m_n[axis]; }
   int number_at(int x, int y, int z) const {
-    if (x < 0 || y < 0 || z < 0 || x >= m_n[0] || y >= m_n[1] || z >= m_n[2]) return -1;
+    if (x < 0 || y < 0 || z < 0 || x >= m_n[0] || y >= m_n[1] || z >= m_n[2])
+      return -1;
     return m_number[(static_cast<std::size_t>(x) * m_n[1] + y) * m_n[2] + z];
   }
 
@@ -52,7 +53,8 @@ private:
     std::vector<double> values;
     for (int a = 0; a < 3; ++a) {
       values.clear();
-      for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][a]);
+      for (std::size_t i = 0; i < points.size(); i += step)
+        values.push_back(points[i][a]);
       const std::size_t rank = values.size() / 500;
       const double low = *place_rank(values, rank),
                    high = *place_rank(values, values.size() - 1 - rank),
@@ -65,10 +67,12 @@ private:
   void fill_cells(const TriangleMesh& scan, int n_cells) {
     m_cells.clear();
     m_cell = std::max(m_box.size().maxCoeff() / n_cells, 1e-12);
-    for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(m_box.size()[a] / m_cell) + 1;
+    for (int a = 0; a < 3; ++a)
+      m_n[a] = static_cast<int>(m_box.size()[a] / m_cell) + 1;
     m_number.assign(static_cast<std::size_t>(m_n[0]) * m_n[1] * m_n[2], -1);
     m_of_vertex.resize(scan.positions.size());
-    for (std::size_t v = 0; v < scan.positions.size(); ++v) m_of_vertex[v] = add(scan.positions[v]);
+    for (std::size_t v = 0; v < scan.positions.size(); ++v)
+      m_of_vertex[v] = add(scan.positions[v]);
     for (const Triangle& t : scan.triangles)
       fill(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]);
   }
@@ -91,7 +95,8 @@ private:
       return; // a spike to an outlier is no surface
     const int n = std::min(64, static_cast<int>(std::ceil(longest / (0.7 * m_cell))));
     for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n - i; ++j) add(a + (b - a) * i / n + (c - a) * j / n);
+      for (int j = 0; j <= n - i; ++j)
+        add(a + (b - a) * i / n + (c - a) * j / n);
   }
 
   Box3 m_box;
@@ -123,8 +128,9 @@ int layer_of(const Voxels& voxels, int cell, const Reading& r) {
 std::vector<int> label_pieces(const Voxels& voxels, const Reading& r, std::vector<int>& sizes) {
   std::vector<int> label(static_cast<std::size_t>(voxels.count()), -1), stack;
   for (int seed = 0; seed < voxels.count(); ++seed) {
-    if (label[seed] >= 0 || layer_of(voxels, seed, r) <= r.floor_top) continue;
-    const int piece = static_cast<int>(sizes.size());
+    if (label[seed] >= 0 || layer_of(voxels, seed, r) <= r.floor_top)
+      continue;
+    const int piece = std::ssize(sizes);
     sizes.push_back(0);
     stack.assign(1, seed);
     label[seed] = piece;
@@ -137,7 +143,8 @@ std::vector<int> label_pieces(const Voxels& voxels, const Reading& r, std::vecto
         for (int dy = -r.reach; dy <= r.reach; ++dy)
           for (int dz = -r.reach; dz <= r.reach; ++dz) {
             const int n = voxels.number_at(at[0] + dx, at[1] + dy, at[2] + dz);
-            if (n < 0 || label[n] >= 0 || layer_of(voxels, n, r) <= r.floor_top) continue;
+            if (n < 0 || label[n] >= 0 || layer_of(voxels, n, r) <= r.floor_top)
+              continue;
             label[n] = piece;
             stack.push_back(n);
           }
@@ -170,21 +177,27 @@ LayerShape shape_of_layer(const Voxels& voxels, const Reading& r, const std::vec
   std::sort(flat.begin(), flat.end());
   for (std::size_t i = 0; i < flat.size(); ++i)
     for (std::size_t j = i + 1; j < flat.size() && flat[j][0] - flat[i][0] <= r.reach; ++j)
-      if (std::abs(flat[j][1] - flat[i][1]) <= r.reach) joined.unite(flat[i][2], flat[j][2]);
+      if (std::abs(flat[j][1] - flat[i][1]) <= r.reach)
+        joined.unite(flat[i][2], flat[j][2]);
   std::vector<int> count(cells.size(), 0);
-  for (std::size_t i = 0; i < cells.size(); ++i) ++count[joined.find(static_cast<int>(i))];
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    ++count[joined.find(static_cast<int>(i))];
   for (int n : count)
-    if (n > 0) shape.pieces.push_back(n);
+    if (n > 0)
+      shape.pieces.push_back(n);
   std::sort(shape.pieces.rbegin(), shape.pieces.rend());
-  if (!cells.empty()) shape.width = std::max(high[0] - low[0], high[1] - low[1]) + 1;
+  if (!cells.empty())
+    shape.width = std::max(high[0] - low[0], high[1] - low[1]) + 1;
   return shape;
 }
 
 void find_floor(const std::vector<int>& layer_count, Reading& r) {
   std::vector<int> filled;
   for (int n : layer_count)
-    if (n > 0) filled.push_back(n);
-  if (filled.size() < 20) return;
+    if (n > 0)
+      filled.push_back(n);
+  if (filled.size() < 20)
+    return;
   const int usual = upper_median(filled);
   const int band =
       static_cast<int>(std::ceil(FLOOR_BAND * static_cast<double>(layer_count.size())));
@@ -194,7 +207,8 @@ void find_floor(const std::vector<int>& layer_count, Reading& r) {
       r.floor_top = k;
     }
   // a thick or uneven floor leaves a thin rest in the layer above
-  if (r.has_floor && layer_count[r.floor_top + 1] > 2 * usual) ++r.floor_top;
+  if (r.has_floor && layer_count[r.floor_top + 1] > 2 * usual)
+    ++r.floor_top;
 }
 
 /// @param without_floor pieces and their sizes as they are where there is no floor: the same in
@@ -206,13 +220,16 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach,
   r.axis = axis;
   r.flipped = flipped;
   std::vector<int> layer_count(static_cast<std::size_t>(voxels.extent(axis)), 0);
-  for (int c = 0; c < voxels.count(); ++c) ++layer_count[layer_of(voxels, c, r)];
+  for (int c = 0; c < voxels.count(); ++c)
+    ++layer_count[layer_of(voxels, c, r)];
   find_floor(layer_count, r);
   std::pair<std::vector<int>, std::vector<int>> with_floor;
   auto& [label, sizes] = r.has_floor ? with_floor : without_floor;
-  if (label.empty()) label = label_pieces(voxels, r, sizes);
+  if (label.empty())
+    label = label_pieces(voxels, r, sizes);
   r.is_body.assign(static_cast<std::size_t>(voxels.count()), 0);
-  if (sizes.empty()) return r;
+  if (sizes.empty())
+    return r;
   const int body = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
   // pieces of one body (holes, a scanner's blind spots) overlap its column and are not small; loose
   // debris is small
@@ -237,29 +254,36 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach,
       e[3] = std::max(e[3], voxels.cell(c)[b]);
     }
   auto is_above_or_below = [&](std::size_t p) {
-    const auto &e = extent[p], &of = extent[static_cast<std::size_t>(body)];
+    const auto &e = extent[p], &of = extent[body];
     return e[0] >= of[0] - 3 && e[1] <= of[1] + 3 && e[2] >= of[2] - 3 && e[3] <= of[3] + 3;
   };
   for (std::size_t p = 0; p < sizes.size(); ++p) {
-    if (static_cast<int>(p) == body) continue;
+    if (static_cast<int>(p) == body)
+      continue;
     ++r.n_debris;
-    if (is_above_or_below(p)) r.lost_share += static_cast<double>(sizes[p]) / sizes[body];
+    if (is_above_or_below(p))
+      r.lost_share += static_cast<double>(sizes[p]) / sizes[body];
     if (high[p] - low[p] > 0.5 * (r.high - r.low))
       r.second_share = std::max(r.second_share, static_cast<double>(sizes[p]) / sizes[body]);
   }
-  for (int c = 0; c < voxels.count(); ++c) r.is_body[c] = label[c] == body;
+  for (int c = 0; c < voxels.count(); ++c)
+    r.is_body[c] = label[c] == body;
   std::vector<std::vector<int>> layers(layer_count.size());
   for (int c = 0; c < voxels.count(); ++c)
-    if (r.is_body[c]) layers[layer_of(voxels, c, r)].push_back(c);
+    if (r.is_body[c])
+      layers[layer_of(voxels, c, r)].push_back(c);
   const double height = r.high - r.low + 1;
-  if (height < 20) return r;
+  if (height < 20)
+    return r;
   int n_leg = 0, n_two = 0, n_top = 0, n_narrow = 0;
   for (int k = r.low; k <= r.high; ++k) {
     const double f = (k - r.low + 0.5) / height;
     const bool leg = f > LEG_LOW && f<LEG_HIGH, top = f> TOP_LOW;
-    if (!leg && !top) continue;
+    if (!leg && !top)
+      continue;
     const LayerShape shape = shape_of_layer(voxels, r, layers[k]);
-    if (shape.pieces.empty()) continue;
+    if (shape.pieces.empty())
+      continue;
     if (top) {
       ++n_top;
       n_narrow += shape.width < TOP_WIDTH * height &&
@@ -286,13 +310,15 @@ void recover_feet(const TriangleMesh& scan, const Voxels& voxels, const Reading&
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top)
       heights.push_back(scan.positions[v].dot(sorted.up));
-  if (heights.empty()) return;
+  if (heights.empty())
+    return;
   sorted.floor_height = upper_median(heights);
   const int a = (r.axis + 1) % 3, b = (r.axis + 2) % 3;
   std::vector<char> above(static_cast<std::size_t>(voxels.extent(a)) * voxels.extent(b), 0);
   for (int c = 0; c < voxels.count(); ++c) {
     const int k = layer_of(voxels, c, r);
-    if (!r.is_body[c] || k > r.floor_top + 3) continue;
+    if (!r.is_body[c] || k > r.floor_top + 3)
+      continue;
     const auto& at = voxels.cell(c);
     for (int da = -1; da <= 1; ++da)
       for (int db = -1; db <= 1; ++db) {
@@ -309,16 +335,20 @@ void recover_feet(const TriangleMesh& scan, const Voxels& voxels, const Reading&
     piece = connected_components(scan.positions.size(), scan.triangles);
     std::vector<int> in_floor(scan.positions.size(), 0), in_body(scan.positions.size(), 0);
     for (std::size_t v = 0; v < scan.positions.size(); ++v) {
-      if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top) ++in_floor[piece[v]];
-      else if (r.is_body[voxels.of_vertex(v)]) ++in_body[piece[v]];
+      if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top)
+        ++in_floor[piece[v]];
+      else if (r.is_body[voxels.of_vertex(v)])
+        ++in_body[piece[v]];
     }
     foot_piece.assign(scan.positions.size(), 0);
-    for (std::size_t c = 0; c < in_floor.size(); ++c) foot_piece[c] = in_body[c] > in_floor[c];
+    for (std::size_t c = 0; c < in_floor.size(); ++c)
+      foot_piece[c] = in_body[c] > in_floor[c];
   }
   const double tolerance = 0.5 * voxels.cell_size(); // a floor is rough by some millimetres
   for (std::size_t v = 0; v < scan.positions.size(); ++v) {
     const int c = voxels.of_vertex(v);
-    if (layer_of(voxels, c, r) > r.floor_top) continue;
+    if (layer_of(voxels, c, r) > r.floor_top)
+      continue;
     const auto& at = voxels.cell(c);
     if (!foot_piece.empty() && foot_piece[piece[v]]) {
       sorted.is_body[v] = 1;
@@ -337,13 +367,15 @@ SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis
   std::pair<std::vector<int>, std::vector<int>> without_floor;
   double next = -1;
   for (int axis : {1, 2, 0}) { // ties go to y, then z
-    if (up_axis != "auto" && up_axis[0] - 'x' != axis) continue;
+    if (up_axis != "auto" && up_axis[0] - 'x' != axis)
+      continue;
     for (bool flipped : {false, true}) {
       Reading r = read_direction(voxels, axis, flipped, reach, without_floor);
       if (r.score > best.score + 1e-9) {
         next = best.score;
         best = std::move(r);
-      } else next = std::max(next, r.score);
+      } else
+        next = std::max(next, r.score);
     }
   }
   SegmentedScan sorted;
@@ -360,10 +392,12 @@ SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis
   sorted.has_floor = best.has_floor;
   sorted.n_debris = best.n_debris;
   sorted.is_body.assign(scan.positions.size(), 0);
-  if (best.is_body.empty()) return sorted;
+  if (best.is_body.empty())
+    return sorted;
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     sorted.is_body[v] = best.is_body[voxels.of_vertex(v)];
-  if (best.has_floor) recover_feet(scan, voxels, best, sorted);
+  if (best.has_floor)
+    recover_feet(scan, voxels, best, sorted);
   sorted.low = 1e300;
   sorted.high = -1e300;
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
@@ -386,7 +420,8 @@ SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis)
     SegmentedScan sorted = sort_in_cells(scan, up_axis, n_cells, n_cells == N_CELLS ? 1 : 2);
     const bool person = shows_a_person(sorted);
     const bool whole = person && !sorted.falls_apart;
-    if (whole && sorted.up_score > CLEAR_SCORE) return sorted;
+    if (whole && sorted.up_score > CLEAR_SCORE)
+      return sorted;
     const int completeness = person + whole;
     const double worth = sorted.up_score + completeness;
     if (worth > most + 0.1) {
@@ -399,11 +434,13 @@ SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis)
 
 SegmentedScan segment_without(const std::vector<char>& is_extra, const TriangleMesh& scan,
                               const std::string& up_axis) {
-  if (is_extra.empty()) return segment_scan(scan, up_axis);
+  if (is_extra.empty())
+    return segment_scan(scan, up_axis);
   TriangleMesh rest;
   std::vector<int> number(scan.positions.size(), -1);
   for (std::size_t v = 0; v < scan.positions.size(); ++v) {
-    if (is_extra[v]) continue;
+    if (is_extra[v])
+      continue;
     number[v] = static_cast<int>(rest.positions.size());
     rest.positions.push_back(scan.positions[v]);
   }
@@ -413,7 +450,8 @@ SegmentedScan segment_without(const std::vector<char>& is_extra, const TriangleM
   SegmentedScan sorted = segment_scan(rest, up_axis);
   std::vector<char> is_body(scan.positions.size(), 0);
   for (std::size_t v = 0; v < is_body.size(); ++v)
-    if (number[v] >= 0) is_body[v] = sorted.is_body[number[v]];
+    if (number[v] >= 0)
+      is_body[v] = sorted.is_body[number[v]];
   sorted.is_body = std::move(is_body);
   return sorted;
 }
@@ -427,7 +465,8 @@ std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<cha
   std::vector<Vec3> points;
   const std::size_t stride = 1 + scan.positions.size() / wanted;
   for (std::size_t v = 0; v < scan.positions.size(); v += stride)
-    if (is_body[v]) points.push_back(scan.positions[v]);
+    if (is_body[v])
+      points.push_back(scan.positions[v]);
   auto is_of_body = [&](const Triangle& t) {
     return is_body[t[0]] && is_body[t[1]] && is_body[t[2]];
   };
@@ -436,7 +475,8 @@ std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<cha
   };
   std::vector<double> areas;
   areas.reserve(scan.triangles.size());
-  for (const Triangle& t : scan.triangles) areas.push_back(is_of_body(t) ? area_of(t) : 0);
+  for (const Triangle& t : scan.triangles)
+    areas.push_back(is_of_body(t) ? area_of(t) : 0);
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   for (std::size_t f = 0; f < scan.triangles.size(); ++f) {
     const Triangle& t = scan.triangles[f];

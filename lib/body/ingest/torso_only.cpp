@@ -98,14 +98,17 @@ struct Neck {
 /// none.
 std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) {
   std::vector<double> heights;
-  for (const Vec3& p : scan.positions) heights.push_back(upright.height(p));
+  for (const Vec3& p : scan.positions)
+    heights.push_back(upright.height(p));
   const double low = lower_quantile(heights, LOW_END), high = lower_quantile(heights, HIGH_END),
                step = (high - low) / N_LAYERS;
-  if (!(step > 0)) return std::nullopt;
+  if (!(step > 0))
+    return std::nullopt;
   std::vector<std::vector<Vec2>> layers(N_LAYERS);
   for (const Vec3& p : scan.positions) {
     const int k = static_cast<int>((upright.height(p) - low) / step);
-    if (k >= 0 && k < N_LAYERS) layers[k].push_back(upright.across(p));
+    if (k >= 0 && k < N_LAYERS)
+      layers[k].push_back(upright.across(p));
   }
   std::array<double, N_LAYERS> radius{};
   std::array<Vec2, N_LAYERS> middle;
@@ -120,21 +123,27 @@ std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) 
     middle[k] = 0.5 * (most + least);
   }
   double dome = 0; // a crown is round; where a body is cut off, its end is as broad as what follows
-  for (int k = N_LAYERS - DOME_LAYERS; k < N_LAYERS; ++k) dome = std::max(dome, radius[k]);
+  for (int k = N_LAYERS - DOME_LAYERS; k < N_LAYERS; ++k)
+    dome = std::max(dome, radius[k]);
   std::optional<Neck> best;
   double clearest = 0;
   for (int k = N_LAYERS - HEAD_LAYERS; k > N_LAYERS * 2 / 5; --k) {
-    if (radius[k] <= 0) continue;
+    if (radius[k] <= 0)
+      continue;
     const auto head = std::max_element(radius.begin() + k, radius.end());
     const int centre = static_cast<int>(head - radius.begin());
     const auto below =
         std::max_element(radius.begin() + std::max(0, k - (N_LAYERS - k)), radius.begin() + k);
-    if (*head < HEAD_OVER_NECK * radius[k]) continue;
-    if (*below < SHOULDERS_OVER_HEAD * *head || dome > DOME_UNDER_HEAD * *head) continue;
+    if (*head < HEAD_OVER_NECK * radius[k])
+      continue;
+    if (*below < SHOULDERS_OVER_HEAD * *head || dome > DOME_UNDER_HEAD * *head)
+      continue;
     // a head is about as high as it is broad, and nothing of the body is higher
     const double height = (N_LAYERS - k) * step;
-    if (height < *head || height > HEAD_HIGH * *head) continue;
-    if (*head > HEAD_OF_HEIGHT * (high - low)) continue;
+    if (height < *head || height > HEAD_HIGH * *head)
+      continue;
+    if (*head > HEAD_OF_HEIGHT * (high - low))
+      continue;
     const double clear = (*head / radius[k]) * std::min(SHOULDERS_COUNT, *below / *head);
     if (clear > clearest) {
       clearest = clear;
@@ -157,14 +166,20 @@ Heading find_heading(const std::vector<Vec3>& p, const Neck& neck,
   std::vector<Vec2> chest, shoulder, head;
   for (const Vec3& q : p) {
     const Vec2 a(q.x(), q.z());
-    if ((a - neck.center).norm() > COLUMN * s) continue;
-    if (CHEST_BAND.times(s).holds(q.y())) chest.push_back(a);
-    if (SHOULDER_BAND.times(s).holds(q.y())) shoulder.push_back(a);
-    if (q.y() > HEAD_ABOVE * s && (a - neck.center).norm() < HEAD_RADIUS * s) head.push_back(a);
+    if ((a - neck.center).norm() > COLUMN * s)
+      continue;
+    if (CHEST_BAND.times(s).holds(q.y()))
+      chest.push_back(a);
+    if (SHOULDER_BAND.times(s).holds(q.y()))
+      shoulder.push_back(a);
+    if (q.y() > HEAD_ABOVE * s && (a - neck.center).norm() < HEAD_RADIUS * s)
+      head.push_back(a);
   }
   const std::vector<Vec2>& of = chest.size() > LEAST_CHEST ? chest : shoulder;
-  for (const Vec2& a : of) mean += a / static_cast<double>(std::max<std::size_t>(1, of.size()));
-  for (const Vec2& a : of) spread += (a - mean) * (a - mean).transpose();
+  for (const Vec2& a : of)
+    mean += a / static_cast<double>(std::max<std::size_t>(1, of.size()));
+  for (const Vec2& a : of)
+    spread += (a - mean) * (a - mean).transpose();
   const double angle = 0.5 * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
   Heading heading{Vec2(std::cos(angle), std::sin(angle)), Vec2(-std::sin(angle), std::cos(angle))};
   auto middle = [&](const std::vector<Vec2>& points) {
@@ -217,7 +232,8 @@ Stand stand_up(const TriangleMesh& scan, const Upright& upright, const Neck& nec
   for (Vec3& q : p) {
     const Vec2 a = Vec2(q.x(), q.z()) - neck.center;
     q = Vec3(stand.heading.left.dot(a), q.y(), stand.heading.forward.dot(a));
-    if (std::hypot(q.x(), q.z()) < COLUMN * s) stand.cut = std::min(stand.cut, q.y());
+    if (std::hypot(q.x(), q.z()) < COLUMN * s)
+      stand.cut = std::min(stand.cut, q.y());
   }
   stand.s = s;
   return stand;
@@ -327,7 +343,8 @@ std::vector<Vec3> plain_legs(const std::vector<Vec2>& rim, double cut, double s)
     const double to_knee = knee_y < top.y() ? (top.y() - knee_y) / (top.y() - ankle_y) : 0.0;
     const Vec3 knee = top + to_knee * (ankle - top);
     const bool thigh = knee.y() < top.y();
-    if (thigh) legs.tube(top, knee, above, knee_radius);
+    if (thigh)
+      legs.tube(top, knee, above, knee_radius);
     legs.tube(knee, ankle, thigh ? Legs::circle(knee_radius) : above, ANKLE_RADIUS * s);
     legs.foot(ankle);
   }
@@ -344,11 +361,13 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
   };
   std::vector<Candidate> candidates;
   for (const int axis : {1, 2, 0}) {
-    if (up_axis != "auto" && up_axis[0] - 'x' != axis) continue;
+    if (up_axis != "auto" && up_axis[0] - 'x' != axis)
+      continue;
     const auto up = find_neck(scan, {axis, 1}), down = find_neck(scan, {axis, -1});
     for (const double sign : {1.0, -1.0}) {
       auto found = sign > 0 ? up : down;
-      if (!found) continue;
+      if (!found)
+        continue;
       if (up && down)
         found->clear *=
             BOTH_ENDS; // a hand on its wrist looks like a head, but there are two of them
@@ -370,7 +389,8 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
       if (std::hypot(p.x(), p.z()) < TRUNK_COLUMN * s && p.y() > stand.cut + RIM * s &&
           p.y() < stand.cut + 3 * RIM * s)
         rim.emplace_back(p.x(), p.z());
-    if (stand.cut > LEAST_TRUNK * s || rim.size() < LEAST_TRUNK_RIM) continue;
+    if (stand.cut > LEAST_TRUNK * s || rim.size() < LEAST_TRUNK_RIM)
+      continue;
     CompletedTorso made;
     made.is_cut.assign(stand.points.size(), 0);
     for (std::size_t v = 0; v < stand.points.size(); ++v)
@@ -394,13 +414,15 @@ void forget_unseen(Body& body, double seen_from) {
   const double s = body.scan.stature_m, sure = seen_from + 0.015 * s;
   std::vector<std::string> lost;
   auto forget = [&](const std::string& name) {
-    if (body.landmarks.erase(name)) lost.push_back(name);
+    if (body.landmarks.erase(name))
+      lost.push_back(name);
   };
   const bool has_crotch = body.has_landmark("crotch") &&
                           body.landmark("crotch").y() > sure + 0.005 * s &&
                           body.landmarks.at("crotch").confidence > 0.4;
   std::vector<std::string> names;
-  for (const auto& [name, landmark] : body.landmarks) names.push_back(name);
+  for (const auto& [name, landmark] : body.landmarks)
+    names.push_back(name);
   bool hand_is_cut[2] = {false, false}; // a stump that ends where the trunk ends is no hand
   for (int side = 0; side < 2; ++side)
     if (const auto tip = body.landmarks.find(side == 0 ? "hand_tip_l" : "hand_tip_r");
@@ -410,7 +432,8 @@ void forget_unseen(Body& body, double seen_from) {
     const bool of_arm = name.starts_with("hand") || name.starts_with("wrist") ||
                         name.starts_with("elbow") || name.starts_with("olecranon");
     if (of_arm) {
-      if (hand_is_cut[name.ends_with("_l") ? 0 : 1]) forget(name);
+      if (hand_is_cut[name.ends_with("_l") ? 0 : 1])
+        forget(name);
       continue;
     }
     const bool of_crotch = name.starts_with("hip_joint") || name == "hip_center" ||
@@ -433,7 +456,8 @@ void forget_unseen(Body& body, double seen_from) {
            (level.first == "hip_girth_max" && level.second.y < sure + ABOVE_RIM * s);
   });
   for (int side = 0; side < 2; ++side)
-    if (hand_is_cut[side]) body.girths.erase(side == 0 ? "wrist_l" : "wrist_r");
+    if (hand_is_cut[side])
+      body.girths.erase(side == 0 ? "wrist_l" : "wrist_r");
   std::erase_if(body.girths, [&](const auto& girth) {
     const std::string& name = girth.first;
     return name.starts_with("knee") || name.starts_with("calf") || name.starts_with("ankle") ||
@@ -467,7 +491,8 @@ void forget_unseen(Body& body, double seen_from) {
       "torso only: stature %.2f m and floor are estimated from the head, to about 4 in 100", s);
   body.scan.findings.push_back({"scan.torso-only"_id, "warning", text, "scan"});
   std::string all;
-  for (const std::string& name : lost) all += (all.empty() ? "" : ", ") + name;
+  for (const std::string& name : lost)
+    all += (all.empty() ? "" : ", ") + name;
   body.scan.findings.push_back(
       {"scan.parts-absent"_id, "info", "not in this scan: " + all, "legs"});
 }

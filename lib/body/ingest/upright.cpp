@@ -27,12 +27,16 @@ constexpr double SAME = 25; ///< degrees: directions that near lead to the same
 std::optional<Vec3> body_line(const std::vector<Vec3>& positions, const SegmentedScan& sorted) {
   Box3 calves, head; // boxes, for one side may be scanned more densely
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (!sorted.is_body[v]) continue;
+    if (!sorted.is_body[v])
+      continue;
     const double h = (positions[v].dot(sorted.up) - sorted.low) / (sorted.high - sorted.low);
-    if (h > 0.12 && h < 0.25) calves.add(positions[v]);
-    else if (h > 0.92) head.add(positions[v]);
+    if (h > 0.12 && h < 0.25)
+      calves.add(positions[v]);
+    else if (h > 0.92)
+      head.add(positions[v]);
   }
-  if (calves.low.x() > calves.high.x() || head.low.x() > head.high.x()) return std::nullopt;
+  if (calves.low.x() > calves.high.x() || head.low.x() > head.high.x())
+    return std::nullopt;
   return head.center() - calves.center();
 }
 
@@ -43,7 +47,8 @@ Eigen::Matrix3d turn_to_y(const Vec3& up) {
 std::vector<Vec3> turned(const Eigen::Matrix3d& turn, const std::vector<Vec3>& points) {
   std::vector<Vec3> out;
   out.reserve(points.size());
-  for (const Vec3& p : points) out.push_back(turn * p);
+  for (const Vec3& p : points)
+    out.push_back(turn * p);
   return out;
 }
 
@@ -59,18 +64,22 @@ std::vector<Vec3> search(const std::vector<Vec3>& points) {
     TriangleMesh cloud;
     cloud.positions = turned(turn, points);
     const SegmentedScan sorted = sort_coarsely(cloud, "y", COARSE_CELLS);
-    if (sorted.is_body.empty() || sorted.high <= sorted.low) continue;
+    if (sorted.is_body.empty() || sorted.high <= sorted.low)
+      continue;
     const auto line = body_line(cloud.positions, sorted);
-    if (!line) continue;
+    if (!line)
+      continue;
     const double worth = sorted.up_score - degrees_between(*line, sorted.up) / 200;
-    if (worth > 0) all.emplace_back(worth, (turn.transpose() * *line).normalized());
+    if (worth > 0)
+      all.emplace_back(worth, (turn.transpose() * *line).normalized());
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Vec3> best;
   for (const auto& candidate : all) {
     const Vec3& up = candidate.second; // clang 14 captures no structured binding
-    if (best.size() == CANDIDATES) break;
+    if (best.size() == CANDIDATES)
+      break;
     if (std::none_of(best.begin(), best.end(),
                      [&](const Vec3& other) { return degrees_between(up, other) < SAME; }))
       best.push_back(up);
@@ -92,11 +101,13 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
     TriangleMesh cloud;
     cloud.positions = turned(turn, points);
     const SegmentedScan stands = segment_scan(cloud, "y");
-    if (!shows_a_person(stands)) return std::nullopt;
+    if (!shows_a_person(stands))
+      return std::nullopt;
     score = stands.up_score;
     const auto line = body_line(
         cloud.positions, stands); // along what is up now: it may be upside down to what it was
-    if (!line) return std::nullopt;
+    if (!line)
+      return std::nullopt;
     Vec3 next = line->normalized();
     if (round > 0) {
       const Eigen::Matrix3d along =
@@ -104,7 +115,8 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
       std::vector<Vec3> feet;
       double lowest = 1e300;
       for (std::size_t v = 0; v < points.size(); ++v)
-        if (stands.is_body[v]) lowest = std::min(lowest, (along * cloud.positions[v]).y());
+        if (stands.is_body[v])
+          lowest = std::min(lowest, (along * cloud.positions[v]).y());
       Box3 box;
       for (std::size_t v = 0; v < points.size(); ++v)
         if (stands.is_body[v])
@@ -115,7 +127,8 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
           }
       if (const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()))) {
         const Vec3 normal = Vec3(-plane->x(), 1, -plane->y()).normalized();
-        if (degrees_between(normal, Vec3::UnitY()) < FOOT_LEAN) next = along.transpose() * normal;
+        if (degrees_between(normal, Vec3::UnitY()) < FOOT_LEAN)
+          next = along.transpose() * normal;
       }
     }
     up = (turn.transpose() * next).normalized();
@@ -126,7 +139,8 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
 } // namespace
 
 std::optional<Vec3> resting_plane(const std::vector<Vec3>& points, const Vec2& at) {
-  if (points.size() < 3) return std::nullopt;
+  if (points.size() < 3)
+    return std::nullopt;
   const Box3 box = bounding_box(points);
   const double reach = 4 * box.size().maxCoeff() + 1e-9, above = box.high.y() + reach;
   // three points high above hold the plane until points of the body do
@@ -147,10 +161,12 @@ std::optional<Vec3> resting_plane(const std::vector<Vec3>& points, const Vec2& a
             rows.row(r) << p.x(), p.z(), 1;
             heights[r] = p.y();
           }
-          if (std::abs(rows.determinant()) < 1e-9 * reach * reach) continue;
+          if (std::abs(rows.determinant()) < 1e-9 * reach * reach)
+            continue;
           const Vec3 trial = rows.inverse() * heights;
           const double y = trial.x() * at.x() + trial.y() * at.y() + trial.z();
-          if (y <= highest) continue;
+          if (y <= highest)
+            continue;
           const bool below = std::all_of(holding.begin(), holding.end(), [&](const Vec3& p) {
             return trial.x() * p.x() + trial.y() * p.z() + trial.z() <= p.y() + 1e-9 * reach;
           });
@@ -165,7 +181,8 @@ std::optional<Vec3> resting_plane(const std::vector<Vec3>& points, const Vec2& a
     const auto deepest =
         std::min_element(points.begin(), points.end(),
                          [&](const Vec3& a, const Vec3& b) { return gap(a) < gap(b); });
-    if (gap(*deepest) > -1e-7 * reach) return plane;
+    if (gap(*deepest) > -1e-7 * reach)
+      return plane;
     std::erase_if(holding, [&](const Vec3& p) {
       return gap(p) > 1e-7 * reach;
     }); // the plane's own three stay
@@ -180,7 +197,8 @@ std::optional<Eigen::Matrix3d> upright_turn(const TriangleMesh& scan, const Segm
   if (sorted.high > sorted.low && shows_a_person(sorted))
     if (const auto line = body_line(scan.positions, sorted);
         line && degrees_between(*line, sorted.up) < OWN_LEAN) {
-      if (sorted.up_score > CLEAR) return std::nullopt;
+      if (sorted.up_score > CLEAR)
+        return std::nullopt;
       most = CLEARLY_BETTER;
     }
   std::vector<Vec3> points;
@@ -198,12 +216,16 @@ std::optional<Eigen::Matrix3d> upright_turn(const TriangleMesh& scan, const Segm
   std::optional<Standing> best;
   for (const Vec3& direction : search(points)) {
     const auto found = stand_up(spread, direction);
-    if (found && (!best || found->score > best->score + 0.02)) best = found;
-    if (best && best->score > CLEAR) break;
+    if (found && (!best || found->score > best->score + 0.02))
+      best = found;
+    if (best && best->score > CLEAR)
+      break;
   }
-  if (!best || best->score < most) return std::nullopt;
+  if (!best || best->score < most)
+    return std::nullopt;
   const Vec3 up = best->up;
-  if (degrees_between(up, sorted.up) < NEAR_AXIS) return std::nullopt;
+  if (degrees_between(up, sorted.up) < NEAR_AXIS)
+    return std::nullopt;
   return turn_to_y(up);
 }
 

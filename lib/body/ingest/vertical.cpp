@@ -35,10 +35,13 @@ std::optional<double> lean_of_posture(const std::vector<Vec3>& points, double st
   Box3 calves, head;
   for (const Vec3& p : points) {
     const double h = p.y() / stature;
-    if (h > 0.92) head.add(p);
-    else if (h > 0.12 && h < 0.25) calves.add(p);
+    if (h > 0.92)
+      head.add(p);
+    else if (h > 0.12 && h < 0.25)
+      calves.add(p);
   }
-  if (calves.low.x() > calves.high.x() || head.low.x() > head.high.x()) return std::nullopt;
+  if (calves.low.x() > calves.high.x() || head.low.x() > head.high.x())
+    return std::nullopt;
   const Vec3 line = head.center() - calves.center();
   return std::atan2(line.z(), line.y()) - units::radians(HEAD_BEFORE_CALVES);
 }
@@ -52,7 +55,8 @@ std::optional<Lean> lean_of_soles(const std::vector<Vec3>& points, double statur
       box.add(p);
     }
   const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()));
-  if (!plane) return std::nullopt;
+  if (!plane)
+    return std::nullopt;
   return Lean{-std::atan(plane->y()), -std::atan(plane->x())};
 }
 
@@ -67,8 +71,10 @@ double drawn(double own, double other) {
 std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points,
                                                const CanonicalFrame& frame) {
   std::vector<Vec3> turned;
-  for (Vec3& p : points) p = transform(frame.scan_to_body, p);
-  if (points.empty()) return std::nullopt;
+  for (Vec3& p : points)
+    p = transform(frame.scan_to_body, p);
+  if (points.empty())
+    return std::nullopt;
   ShapeVertical vertical{Vec3::UnitY(), Vec3::UnitY(), std::nullopt};
   Vec3 up = Vec3::UnitY(); // in `frame`
   turned.resize(points.size());
@@ -80,14 +86,17 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points,
       low = std::min(low, turned[k].y());
       high = std::max(high, turned[k].y());
     }
-    for (Vec3& p : turned) p.y() -= low;
+    for (Vec3& p : turned)
+      p.y() -= low;
     const auto forward = lean_of_posture(turned, high - low),
                left = mirror_roll(turned, high - low);
-    if (!forward || !left) return std::nullopt;
+    if (!forward || !left)
+      return std::nullopt;
     Lean lean{*forward, *left};
     const auto soles = lean_of_soles(turned, high - low);
     vertical.by_posture = lean.direction();
-    if (soles) lean = {drawn(lean.forward, soles->forward), drawn(lean.left, soles->left)};
+    if (soles)
+      lean = {drawn(lean.forward, soles->forward), drawn(lean.left, soles->left)};
     const Eigen::Matrix3d back = frame.scan_to_body.block<3, 3>(0, 0).transpose() /
                                  std::cbrt(frame.scan_to_body.block<3, 3>(0, 0).determinant());
     auto in_scan = [&](const Vec3& direction) { return Vec3(back * turn.transpose() * direction); };
@@ -95,7 +104,8 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points,
     vertical.by_soles = soles ? std::optional(in_scan(soles->direction())) : std::nullopt;
     up = turn.transpose() * lean.direction();
     vertical.up = back * up;
-    if (lean.direction().cross(Vec3::UnitY()).norm() < SETTLED) break;
+    if (lean.direction().cross(Vec3::UnitY()).norm() < SETTLED)
+      break;
   }
   return vertical;
 }
@@ -106,13 +116,15 @@ void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points,
   SegmentedScan by_body = sorted;
   for (int round = 0; round < HEADINGS; ++round) { // the heading depends a little on the vertical
     const auto vertical = vertical_of_shape(points, settled);
-    if (!vertical) return;
+    if (!vertical)
+      return;
     auto near_file = [&](const Vec3& up) { return degrees_between(up, sorted.up) < NEAR_FILE; };
     // a slumped posture tells no vertical: where the soles rest on the file's level, that is the
     // floor
     const bool slumped =
         vertical->by_soles && degrees_between(vertical->by_posture, *vertical->by_soles) > SLUMPED;
-    if (upright_file && slumped && near_file(*vertical->by_soles)) return;
+    if (upright_file && slumped && near_file(*vertical->by_soles))
+      return;
     if (upright_file && !near_file(vertical->up) &&
         (near_file(vertical->by_posture) || (vertical->by_soles && near_file(*vertical->by_soles))))
       return;

@@ -22,13 +22,15 @@ std::optional<double> wrist_by_girth(const ArmTrace& arm, const Finder& f) {
   const auto& sections = arm.sections;
   std::size_t palm = 0;
   for (std::size_t k = 0; k < sections.size() && sections[k].along < 0.11 * s; ++k)
-    if (sections[k].girth > sections[palm].girth) palm = k;
+    if (sections[k].girth > sections[palm].girth)
+      palm = k;
   if (sections.empty() || sections[palm].along > 0.105 * s)
     return std::nullopt; // still rising: no palm
   std::size_t least = palm;
   for (std::size_t k = palm + 1;
        k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k)
-    if (sections[k].girth < 0.995 * sections[least].girth) least = k;
+    if (sections[k].girth < 0.995 * sections[least].girth)
+      least = k;
   if (sections[least].girth > f.number("wrist.least_to_palm") * sections[palm].girth)
     return std::nullopt;
   double sum = 0, weight = 0; // the middle of where it is as thin as makes no difference
@@ -50,7 +52,8 @@ std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist
   std::vector<Vec2> falls; // along, girth lost per length
   for (std::size_t k = 3; k + 3 < sections.size(); ++k) {
     const double along = sections[k].along;
-    if (along < wrist + 0.10 * s || along > wrist + 0.185 * s) continue;
+    if (along < wrist + 0.10 * s || along > wrist + 0.185 * s)
+      continue;
     double rise = 0;
     for (std::size_t j = 1; j <= 3; ++j)
       rise += (sections[k + j].girth - sections[k - j].girth) /
@@ -58,8 +61,10 @@ std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist
     falls.emplace_back(along, -rise);
   }
   double steepest = 0;
-  for (const Vec2& fall : falls) steepest = std::max(steepest, -fall.y());
-  if (steepest <= 0) return std::nullopt;
+  for (const Vec2& fall : falls)
+    steepest = std::max(steepest, -fall.y());
+  if (steepest <= 0)
+    return std::nullopt;
   return lowest_of(falls, 0.25 * steepest)
       .middle; // of what is about as steep: sections lie centimetres apart
 }
@@ -74,7 +79,8 @@ void tell_lifted_pit(const Finder& f, const ArmTrace& arm, const std::string& su
                 "arm pit is put higher",
                 1000 * arm.lifted_m);
   f.explain("axilla" + suffix + ": " + text);
-  if (arm.lifted_m < TOLD) return;
+  if (arm.lifted_m < TOLD)
+    return;
   f.body.scan.findings.push_back({"scan.armpit-estimated"_id, "warning", text, "axilla" + suffix});
   for (const char* name : {"axilla", "axilla_front", "axilla_back"})
     f.body.landmarks[name + suffix].confidence *= DOUBTED;
@@ -89,12 +95,14 @@ struct Aside {
 std::optional<Aside> acromion_by_trunk(const Finder& f) {
   constexpr double TOP = 0.755; // of stature, about the arm pits
   const double s = f.s;
-  if (!f.levels.crotch()) return std::nullopt;
+  if (!f.levels.crotch())
+    return std::nullopt;
   double breadth[2], middle = 0;
   for (int k = 0; k < 2; ++k) { // both below the arm pits; where an arm touches neither tells
     const double y = *f.levels.crotch() + (k == 0 ? 0.625 : 0.75) * (TOP * s - *f.levels.crotch());
     const auto& loop = f.levels.trunk_at(y);
-    if (!loop) return std::nullopt;
+    if (!loop)
+      return std::nullopt;
     breadth[k] = loop->size().x() / s;
     middle += 0.5 * loop->center().x();
   }
@@ -117,8 +125,10 @@ Vec3 find_shoulder(const Finder& f, int side) {
   const double raised =
       units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
   auto pit_if = [&](bool hidden) -> std::optional<Vec3> {
-    if (!arm.axilla || hidden != arm.pit_hidden) return std::nullopt;
-    if (hidden) return arm.axilla;
+    if (!arm.axilla || hidden != arm.pit_hidden)
+      return std::nullopt;
+    if (hidden)
+      return arm.axilla;
     const auto& belly = f.levels.trunk_at(0.60 * s);
     const double stout = belly ? std::clamp(belly->size().y() / s - 0.165, 0.0, 0.1) : 0;
     return Vec3(*arm.axilla + s * Vec3(0, f.number("axilla.above_roof"),
@@ -138,7 +148,8 @@ Vec3 find_shoulder(const Finder& f, int side) {
                                       "axilla" + suffix});
     f.find("axilla_front", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_front; }}});
     f.find("axilla_back", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_back; }}});
-    if (arm.lifted_m > 0) tell_lifted_pit(f, arm, suffix);
+    if (arm.lifted_m > 0)
+      tell_lifted_pit(f, arm, suffix);
   } else
     f.body.scan.findings.push_back(
         {"scan.armpit-estimated"_id, "warning",
@@ -147,13 +158,15 @@ Vec3 find_shoulder(const Finder& f, int side) {
   Vec3 by_axis = arm.at(arm.length() + 0.02 * s);
   by_axis.z() += f.number("shoulder_joint.before_axis") * s;
   auto by_pit = [&]() -> std::optional<Vec3> {
-    if (!arm.axilla) return std::nullopt;
+    if (!arm.axilla)
+      return std::nullopt;
     // a raised arm draws the pit outward from under the joint
     const double slide = f.number("shoulder_joint.pit_slide_per_degree") * raised -
                          f.number("shoulder_joint.pit_inside");
     Vec3 joint(arm.axilla->x() - outward * slide * s, 0, by_axis.z());
     const auto top = top_of_shoulder(skin, s, joint.x(), joint.z() - 0.01 * s);
-    if (!top) return std::nullopt;
+    if (!top)
+      return std::nullopt;
     const double w = f.number("shoulder_joint.of_girdle");
     joint.y() = (1 - w) * arm.axilla->y() + w * top->y();
     return joint;
@@ -171,13 +184,15 @@ Vec3 find_shoulder(const Finder& f, int side) {
          {{"beside_trunk_and_joint",
            [&]() -> std::optional<Vec3> {
              const auto aside = acromion_by_trunk(f);
-             if (!aside) return std::nullopt;
+             if (!aside)
+               return std::nullopt;
              const double w = f.number("acromion.joint_weight");
              return top_of_shoulder(
                  skin, s, w * by_joint + (1 - w) * (aside->middle + outward * aside->half), depth);
            }},
           {"above_shoulder_joint", [&] { return top_of_shoulder(skin, s, by_joint, depth); }}});
-  if (const auto p = top_of_shoulder(skin, s, by_joint, depth)) f.also("acromion" + suffix, *p);
+  if (const auto p = top_of_shoulder(skin, s, by_joint, depth))
+    f.also("acromion" + suffix, *p);
   weigh_acromion_by_slope(f, side, raised);
   // of a scan with many closed holes the offset learned for the joint changes: the rest of the arm
   // is measured from where the rule found it
@@ -200,7 +215,8 @@ std::optional<Vec2> elbow_by_bend(const ArmTrace& arm, double s, double around) 
   double sum = 0, weight = 0, most = 0;
   for (double off = -NEAR; off <= NEAR; off += STEP)
     most = std::max(most, bend_at(arm, around + off * s, s).norm());
-  if (most < STRAIGHT) return std::nullopt;
+  if (most < STRAIGHT)
+    return std::nullopt;
   for (double off = -NEAR; off <= NEAR; off += STEP)
     if (const double w = bend_at(arm, around + off * s, s).norm() - 0.8 * most; w > 0) {
       sum += w * (around + off * s);
@@ -223,16 +239,19 @@ Vec3 elbow_faces(const ArmTrace& arm, double along, double s) {
 Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along, const Vec3& out) {
   const LimbSection* near = &arm.sections.front();
   for (const LimbSection& candidate : arm.sections)
-    if (std::abs(candidate.along - along) < std::abs(near->along - along)) near = &candidate;
+    if (std::abs(candidate.along - along) < std::abs(near->along - along))
+      near = &candidate;
   const Plane plane = cross_plane(arm.at(along), near->axis);
   const std::vector<Loop> loops = cut(skin, plane, &arm.triangles);
   const Loop* loop = nullptr;
   for (const Loop& candidate : loops)
     if (candidate.area > 0 && candidate.centroid.norm() < (loop ? loop->centroid.norm() : 0.05))
       loop = &candidate;
-  if (!loop) return arm.at(along);
+  if (!loop)
+    return arm.at(along);
   double rear = -1e300, weight = 0;
-  for (const auto& seg : loop->segments) rear = std::max(rear, plane.point(seg[0]).dot(out));
+  for (const auto& seg : loop->segments)
+    rear = std::max(rear, plane.point(seg[0]).dot(out));
   Vec3 back = Vec3::Zero();
   for (const auto& seg : loop->segments)
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
@@ -241,8 +260,10 @@ Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along
       back += w * p;
       weight += w;
     }
-  if (weight > 0) back /= weight;
-  else back = plane.point(loop->centroid);
+  if (weight > 0)
+    back /= weight;
+  else
+    back = plane.point(loop->centroid);
   return back + std::max(0.0, rear - 0.25 * REAR_FLAT - back.dot(out)) * out;
 }
 
@@ -255,7 +276,8 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
     by_swell = *rise - f.number("elbow.before_swell") * f.s;
   auto with_swell = [&]() -> std::optional<double> {
     const double most = f.number("elbow.swell_near_ratio") * f.s;
-    if (!by_swell || std::abs(*by_swell - by_ratio) >= most) return std::nullopt;
+    if (!by_swell || std::abs(*by_swell - by_ratio) >= most)
+      return std::nullopt;
     const double off = *by_swell - by_ratio; // fades towards the limit, so that nothing jumps there
     return by_ratio +
            f.number("elbow.girth_weight") * std::min(1.0, 3 * (1 - std::abs(off) / most)) * off;
@@ -265,19 +287,22 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
       f.choose<double>("elbow", "elbow" + suffix,
                        {{"arm_bends",
                          [&]() -> std::optional<double> {
-                           if (!bend) return std::nullopt;
+                           if (!bend)
+                             return std::nullopt;
                            const double share = std::clamp((bend->y() - STRAIGHT) / 0.35, 0.0,
                                                            f.number("elbow.bend_weight"));
                            return with_swell().value_or(by_ratio) * (1 - share) + share * bend->x();
                          }},
                         {"upper_arm_swells", with_swell},
                         {"arm_ratio", [&] { return std::optional(by_ratio); }}});
-  if (!along) return;
+  if (!along)
+    return;
   const Vec3 behind(0, 0, f.number("elbow.behind_axis") * f.s);
   f.put("elbow" + suffix, f.corrected("elbow", suffix, arm.at(along->value) - behind, false), 2,
         *along->rule);
   f.also("elbow" + suffix, arm.at(by_ratio) - behind);
-  if (by_swell) f.also("elbow" + suffix, arm.at(*by_swell) - behind);
+  if (by_swell)
+    f.also("elbow" + suffix, arm.at(*by_swell) - behind);
   f.find("olecranon", suffix, 2,
          {{"rearmost_at_elbow", [&] {
              const double point = along->value + f.number("olecranon.above_joint") * f.s;
@@ -294,7 +319,8 @@ void find_arm_landmarks(const Finder& f) {
   for (int side = 0; side < 2; ++side) {
     const ArmTrace& arm = f.arms[side];
     const std::string suffix = side_suffix(side);
-    if (arm.sections.empty()) continue;
+    if (arm.sections.empty())
+      continue;
     f.find("hand_tip", suffix, 1,
            {{"farthest_over_the_skin", [&] { return std::optional(arm.tip); }}});
     const Vec3 joint = find_shoulder(f, side);
@@ -320,7 +346,8 @@ void find_arm_landmarks(const Finder& f) {
                              return *least - f.number("wrist.before_least_girth") * s;
                            }},
                           {"arm_ratio", [&] { return std::optional(by_ratio); }}});
-    if (!hand) continue;
+    if (!hand)
+      continue;
     const double reach = (joint - arm.tip).norm();
     if (hand->rule->name != "arm_ratio" || reach >= f.number("hand.least_arm") * s) {
       const Vec3 wrist = arm.at(hand->value);

@@ -28,7 +28,8 @@ std::vector<double> crossings(const std::vector<Loop>& loops, const Vec2& q, con
   for (const Loop& loop : loops)
     for (const auto& segment : loop.segments) {
       const double a = normal.dot(segment[0] - q), b = normal.dot(segment[1] - q);
-      if ((a >= 0) == (b >= 0)) continue;
+      if ((a >= 0) == (b >= 0))
+        continue;
       const Vec2 p = segment[0] + a / (a - b) * (segment[1] - segment[0]);
       at.push_back(e.dot(p - q));
     }
@@ -44,7 +45,8 @@ std::vector<double> crossings(const std::vector<Loop>& loops, const Vec2& q, con
 std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm, double s,
                              double usual) {
   Vec2 out(arm.out.x(), arm.out.y());
-  if (out.norm() < 0.2) return std::nullopt;
+  if (out.norm() < 0.2)
+    return std::nullopt;
   out.normalize();
   // leaning to the trunk: in a level arm the fold is a wide fillet, and the pit is on its trunk
   // side
@@ -52,7 +54,8 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
       ((out + Vec2(0, -1)).normalized() + Vec2(arm.left ? TRUNK_LEAN : -TRUNK_LEAN, 0))
           .normalized();
   Vec2 e(-bisector.y(), bisector.x()); // square to the bisector, from the arm to the trunk
-  if (e.dot(Vec2(arm.left ? -1 : 1, -1)) < 0) e = -e;
+  if (e.dot(Vec2(arm.left ? -1 : 1, -1)) < 0)
+    e = -e;
   const double leave_usual = usual / std::abs(e.x() * out.y() - e.y() * out.x());
   std::optional<Vec2> apex;
   double last_leave = 0, last_enter = 0;
@@ -65,18 +68,21 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
       if (t[k + 1] - t[k] < POCKET * s)
         t.erase(t.begin() + static_cast<std::ptrdiff_t>(k),
                 t.begin() + static_cast<std::ptrdiff_t>(k) + 2);
-      else k += 2;
+      else
+        k += 2;
     const auto first = std::upper_bound(t.begin(), t.end(), 0.0);
     if (first == t.end() || (first - t.begin()) % 2 == 0)
       continue; // not inside the arm in this plane
     const double leave = *first;
     if (first + 1 == t.end() || leave > (apex ? 0.2 : 0.12) * s) {
-      if (apex) break;
+      if (apex)
+        break;
       continue;
     }
     const double enter = *(first + 1);
     // another gap than that of the last line, or a fold of the trunk's side below the pit
-    if (apex && (leave > last_enter || enter < last_leave)) break;
+    if (apex && (leave > last_enter || enter < last_leave))
+      break;
     // a gap that ends while it is wide has its roof on the arm's side: below it the trunk falls
     // away
     const Vec2 next = q + (leave + std::min(0.5 * (enter - leave), ROOF * s)) * e;
@@ -88,7 +94,8 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
     last_leave = leave;
     last_enter = enter;
     apex = next;
-    if (enter - leave < 0.0008 * s) break;
+    if (enter - leave < 0.0008 * s)
+      break;
   }
   return apex;
 }
@@ -97,7 +104,8 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
 
 void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   const double s = levels.stature();
-  if (arm.sections.empty()) return;
+  if (arm.sections.empty())
+    return;
   const TriangleMesh& skin = levels.skin();
   std::vector<int> near;
   const double sign = arm.left ? 1 : -1;
@@ -123,7 +131,8 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   arm.axilla = std::nullopt;
   std::vector<double> xs, ys; // the middle of three planes, for a single one may run along a fold
   for (const double offset : {0.0, -0.15, 0.15, -0.4, 0.4}) {
-    if (xs.size() == 3 || (!xs.empty() && std::abs(offset) > 0.3)) break;
+    if (xs.size() == 3 || (!xs.empty() && std::abs(offset) > 0.3))
+      break;
     if (const auto apex = apex_at(depth + offset * radius)) {
       xs.push_back(apex->x());
       ys.push_back(apex->y());
@@ -135,7 +144,8 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
     const std::size_t n = xs.size();
     auto middle = [&](const std::vector<double>& v) { // the mean, without what is far off, and
                                                       // nothing jumps where it is a little nearer
-      if (n < 3) return v[n / 2];
+      if (n < 3)
+        return v[n / 2];
       const auto share = [&](double x) {
         return std::clamp(1.5 - std::abs(x - v[1]) / (0.01 * s), 0.0, 1.0);
       };
@@ -164,7 +174,8 @@ namespace {
 
 void move_pit(ArmTrace& arm, const Vec3& by) {
   for (std::optional<Vec3>* p : {&arm.axilla, &arm.axilla_front, &arm.axilla_back})
-    if (*p) **p += by;
+    if (*p)
+      **p += by;
 }
 
 /// Lower than any pit, with no other arm to tell by how much.
@@ -194,17 +205,21 @@ void compare_pits(std::array<ArmTrace, 2>& arms, const Rules& rules, double s) {
     if (arms[k].pit_low && !arms[k].pit_hidden &&
         (!arms[1 - k].axilla || arms[1 - k].pit_hidden || arms[1 - k].pit_low))
       hide_pit(arms[k], rules, s);
-  if (!arms[0].axilla || !arms[1].axilla) return;
+  if (!arms[0].axilla || !arms[1].axilla)
+    return;
   for (int k = 0; k < 2; ++k)
-    if (arms[k].pit_hidden && !arms[1 - k].pit_hidden) mirror_pit(arms[k], arms[1 - k]);
-  if (arms[0].pit_hidden || arms[1].pit_hidden) return;
+    if (arms[k].pit_hidden && !arms[1 - k].pit_hidden)
+      mirror_pit(arms[k], arms[1 - k]);
+  if (arms[0].pit_hidden || arms[1].pit_hidden)
+    return;
   ArmTrace& lower = arms[arms[0].axilla->y() < arms[1].axilla->y() ? 0 : 1];
   const ArmTrace& higher = &lower == &arms[0] ? arms[1] : arms[0];
   const double lowest = rules.number("axilla.lowest") * s;
   const double doubted =
       std::clamp((lowest + FADES * s - lower.axilla->y()) / (FADES * s), 0.0, 1.0);
   const double beyond = higher.axilla->y() - lower.axilla->y() - (1 - doubted) * UNLIKE * s;
-  if (beyond <= 0) return;
+  if (beyond <= 0)
+    return;
   lower.lifted_m = (1 - (1 - doubted) * KEPT) * beyond;
   move_pit(lower, Vec3(0, lower.lifted_m, 0));
 }
@@ -218,16 +233,19 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
     trunk = limb = -1;
     double nearest = 0.03 * s;
     for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (loops[i].area <= 0) continue;
+      if (loops[i].area <= 0)
+        continue;
       const bool is_trunk =
           trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s; // the largest near the middle
-      if (is_trunk) trunk = static_cast<int>(i);
+      if (is_trunk)
+        trunk = static_cast<int>(i);
       if (is_trunk && is_level)
         continue; // it reaches below the arm's middle even while the arm's underside is a loop of
                   // its own
       double d = 1e300;
       for (const LimbSection& section : arm.sections) {
-        if (std::abs(section.center.y() - y) > reach || section.along < from) continue;
+        if (std::abs(section.center.y() - y) > reach || section.along < from)
+          continue;
         const Vec2 c(section.center.x(), section.center.z());
         d = std::min(d, encloses(loops[i], c) ? 0.0 : (c - loops[i].centroid).norm());
       }
@@ -246,9 +264,11 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   double low = 0, high = 0;
   auto search = [&](double top, double bottom, double step) {
     low = high = 0;
-    for (double y = top; y > bottom && low == 0; y -= step) (apart(y) ? low : high) = y;
+    for (double y = top; y > bottom && low == 0; y -= step)
+      (apart(y) ? low : high) = y;
   };
-  if (arm.out.y() < -0.12) search(0.80 * s, 0.62 * s, 0.005 * s);
+  if (arm.out.y() < -0.12)
+    search(0.80 * s, 0.62 * s, 0.005 * s);
   if (low == 0 || high == 0) { // a level through a level arm's underside is further from its
                                // middle, and the hand may hang
     reach = 0.035 * s;
@@ -257,14 +277,16 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
     const double middle = arm.at(0.85 * arm.length()).y();
     search(middle, middle - 0.05 * s, 0.0006 * s);
   }
-  if (low == 0 || high == 0) return; // a level arm may never stand apart in level sections
+  if (low == 0 || high == 0)
+    return; // a level arm may never stand apart in level sections
   while (high - low > 2e-5) {
     const double y = 0.5 * (low + high);
     (apart(y) ? low : high) = y;
   }
   int trunk, limb;
   const std::vector<Loop> loops = loops_at(low, trunk, limb);
-  if (trunk < 0 || limb < 0) return;
+  if (trunk < 0 || limb < 0)
+    return;
   // both folds of the pit may come as near: of places as near as makes no difference the middle
   struct Near {
     Vec2 middle;
@@ -297,9 +319,11 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
       sum += w * near.middle;
       weight += w;
     }
-  if (weight <= 0) return;
+  if (weight <= 0)
+    return;
   const Vec3 merge(sum.x() / weight, low, sum.y() / weight);
-  if (std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s) arm.merge = merge;
+  if (std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s)
+    arm.merge = merge;
 }
 
 } // namespace sloper::body

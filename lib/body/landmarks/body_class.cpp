@@ -35,7 +35,8 @@ void breadths(const LevelStack& levels, double low, double high, double& least, 
   most = 0;
   for (double y = low; y <= high; y += BREADTH_STEP * levels.stature()) {
     const Slice& slice = levels.at(y);
-    if (slice.trunk < 0) continue;
+    if (slice.trunk < 0)
+      continue;
     const double width = slice.loops[slice.trunk].size().x();
     least = std::min(least, width);
     most = std::max(most, width);
@@ -53,7 +54,8 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
                             const std::vector<Vec3>& normals, const Rules& rules,
                             std::vector<std::string>& trail) {
   FigureClass figure;
-  if (!levels.crotch()) return figure;
+  if (!levels.crotch())
+    return figure;
   const double s = levels.stature(), crotch = *levels.crotch();
   const TriangleMesh& skin = levels.skin();
   double least, hip, unused;
@@ -66,7 +68,8 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
   // the front just above the crotch, from where the legs are one: skin between them may hang lower
   double joined = crotch + rules.number("figure.groin_begin") * s;
   const double joined_end = crotch + rules.number("figure.groin_end") * s;
-  while (joined < joined_end && !levels.trunk_at(joined)) joined += JOINED_STEP * s;
+  while (joined < joined_end && !levels.trunk_at(joined))
+    joined += JOINED_STEP * s;
   const auto groin = front_of(levels, joined);
   const auto above = front_of(levels, joined + rules.number("figure.groin_span") * s);
   const double rise = groin && above ? (*above - *groin) / s : rules.number("figure.groin_rise");
@@ -88,7 +91,8 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
   figure.navel = strongest_relief(skin, normals, box, radius, -1);
   const double to_usual_stature = rules.number("figure.usual_stature") / s;
   for (auto* relief : {&figure.nipple[0], &figure.nipple[1], &figure.navel})
-    if (*relief) (*relief)->height *= to_usual_stature;
+    if (*relief)
+      (*relief)->height *= to_usual_stature;
   const double bump = figure.nipple[0] && figure.nipple[1]
                           ? std::min(figure.nipple[0]->height, figure.nipple[1]->height)
                           : 0;

@@ -19,7 +19,8 @@ constexpr double NO_MORE = 1.2; ///< of a make's limit, at which its bodies say 
 
 std::vector<double> numbers_of(const io::Node& list, double unit) {
   std::vector<double> numbers;
-  for (std::size_t k = 0; k < list.size(); ++k) numbers.push_back(unit * list.at(k).number());
+  for (std::size_t k = 0; k < list.size(); ++k)
+    numbers.push_back(unit * list.at(k).number());
   return numbers;
 }
 
@@ -43,7 +44,8 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
   Corrections corrections;
   const io::Node features = root.at("features");
   const std::vector<std::string>& known = shape_feature_names();
-  if (features.size() == 0) return corrections;
+  if (features.size() == 0)
+    return corrections;
   if (features.size() != known.size())
     features.fail("corrections.other-program"_id, "are not those of this program",
                   "derive the corrections again: scripts/derive-corrections");
@@ -67,25 +69,28 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
       for (const double make : numbers_of(entry.at("makes"), 1)) {
         if (!(make >= 0 && make < static_cast<double>(point.of_make.size())))
           entry.at("makes").fail("json.bad-index"_id, "names a make that is not there");
-        point.of_make[static_cast<std::size_t>(make)] = 1;
+        point.of_make[make] = 1;
       }
     for (int axis = 0; axis < 3; ++axis)
       if (const std::string letter(1, "xyz"[axis]); entry.has(letter))
         point.axis[axis] = corrections.read_weights(entry.at(letter));
   }
-  if (!root.has("expected")) return corrections;
+  if (!root.has("expected"))
+    return corrections;
   const io::Node expected = root.at("expected");
   for (const std::string& place : expected.keys()) {
     const io::Node entry = expected.at(place);
     Weights& weights = corrections.m_expected[place] = corrections.read_weights(entry.at("y"));
     weights.sd = UNIT * entry.at("sd").number();
-    if (!(weights.sd > 0)) entry.at("sd").fail("json.out-of-range"_id, "is not positive");
+    if (!(weights.sd > 0))
+      entry.at("sd").fail("json.out-of-range"_id, "is not positive");
   }
   return corrections;
 }
 
 void Corrections::read_population(const io::Node& root) {
-  if (!root.has("makes")) return;
+  if (!root.has("makes"))
+    return;
   const std::size_t n = m_features.size();
   const io::Node makes = root.at("makes"), basis = root.at("basis");
   for (std::size_t m = 0; m < makes.size(); ++m) {
@@ -101,11 +106,14 @@ void Corrections::read_population(const io::Node& root) {
     const io::Node row = basis.at(k);
     m_basis_sd.push_back(row.at("sd").number());
     m_basis.push_back(numbers_of(row.at("direction"), SHARE));
-    if (m_basis.back().size() != n) row.fail("json.wrong-count"_id, "has not one number a feature");
-    if (!(m_basis_sd.back() > 0)) row.at("sd").fail("json.out-of-range"_id, "is not positive");
+    if (m_basis.back().size() != n)
+      row.fail("json.wrong-count"_id, "has not one number a feature");
+    if (!(m_basis_sd.back() > 0))
+      row.at("sd").fail("json.out-of-range"_id, "is not positive");
   }
   m_outside = root.at("outside").number();
-  if (!(m_outside > 0)) root.at("outside").fail("json.out-of-range"_id, "is not positive");
+  if (!(m_outside > 0))
+    root.at("outside").fail("json.out-of-range"_id, "is not positive");
 }
 
 Corrections::Weights Corrections::read_weights(const io::Node& list) const {
@@ -136,7 +144,8 @@ double Corrections::linear(const Weights& weights, const ShapeFeatures& features
 }
 
 double Corrections::unlikeness(const ShapeFeatures& features) const {
-  if (m_features.empty()) return 0;
+  if (m_features.empty())
+    return 0;
   double sum = 0;
   for (int side = 0; side < 2; ++side)
     for (std::size_t k = 0; k < m_features.size(); ++k) {
@@ -159,7 +168,8 @@ std::vector<double> Corrections::distances(const ShapeFeatures& features) const 
       }
       for (std::size_t b = 0; b < m_basis.size(); ++b) {
         double along = 0;
-        for (std::size_t k = 0; k < z.size(); ++k) along += m_basis[b][k] * z[k];
+        for (std::size_t k = 0; k < z.size(); ++k)
+          along += m_basis[b][k] * z[k];
         outside -= along * along;
         within += along * along / (m_basis_sd[b] * m_basis_sd[b]);
       }
@@ -190,20 +200,24 @@ double Corrections::likeness(const ShapeFeatures& features,
 Vec3 Corrections::offset(const std::string& place, const ShapeFeatures& features, int side) const {
   Vec3 offset = Vec3::Zero();
   const auto it = m_points.find(place);
-  if (it == m_points.end()) return offset;
+  if (it == m_points.end())
+    return offset;
   const double trust = likeness(features, &it->second.of_make);
-  if (trust <= 0) return offset;
+  if (trust <= 0)
+    return offset;
   for (int axis = 0; axis < 3; ++axis)
     if (const Weights& weights = it->second.axis[axis]; !weights.of_feature.empty())
       offset[axis] = trust * std::clamp(linear(weights, features, side), -MOST, MOST);
-  if (side < 0) offset.x() = 0;
+  if (side < 0)
+    offset.x() = 0;
   return offset;
 }
 
 std::optional<Corrections::Expected>
 Corrections::expected(const std::string& place, const ShapeFeatures& features, int side) const {
   const auto it = m_expected.find(place);
-  if (it == m_expected.end() || likeness(features) < 1) return std::nullopt;
+  if (it == m_expected.end() || likeness(features) < 1)
+    return std::nullopt;
   return Expected{linear(it->second, features, side), it->second.sd};
 }
 

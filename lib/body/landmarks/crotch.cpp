@@ -22,11 +22,14 @@ std::optional<double> buttock_level(const LevelStack& levels) {
   std::vector<Vec2> backs; // height, depth
   for (double y = 0.46 * s; y < top; y += levels.spacing()) {
     const Slice& slice = levels.at(y);
-    if (slice.trunk >= 0) backs.emplace_back(slice.y, slice.loops[slice.trunk].low.y());
+    if (slice.trunk >= 0)
+      backs.emplace_back(slice.y, slice.loops[slice.trunk].low.y());
   }
-  if (backs.empty()) return std::nullopt;
+  if (backs.empty())
+    return std::nullopt;
   const Lowest rearmost = lowest_of(backs, CROTCH_FLAT);
-  if (rearmost.least > top - 0.025 * s) return std::nullopt;
+  if (rearmost.least > top - 0.025 * s)
+    return std::nullopt;
   return rearmost.middle;
 }
 
@@ -35,17 +38,21 @@ std::optional<double> buttock_level(const LevelStack& levels) {
 bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules,
                   bool rebuilt, bool whole, std::vector<Finding>& findings,
                   std::vector<std::string>& trail) {
-  if (!levels.crotch()) return false;
+  if (!levels.crotch())
+    return false;
   // figure and stance are not known yet: of the tree's conditions only the skin's counts here
   std::vector<std::string> order;
   for (const RuleChoice& rule : rules.order("crotch"))
-    if (rule.skin.empty() || (rule.skin == "rebuilt") == rebuilt) order.push_back(rule.name);
-  if (std::find(order.begin(), order.end(), "below_buttocks") == order.end()) return false;
+    if (rule.skin.empty() || (rule.skin == "rebuilt") == rebuilt)
+      order.push_back(rule.name);
+  if (std::find(order.begin(), order.end(), "below_buttocks") == order.end())
+    return false;
   const bool always = order.front() == "below_buttocks";
   const double s = levels.stature(), found = *levels.crotch();
   const Vec3 place(levels.crotch_point().x(), found, levels.crotch_point().y());
   int seen = 0;
-  for (const Vec3& p : scan_points) seen += ((p - place).cwiseAbs() - s * SEEN).maxCoeff() < 0;
+  for (const Vec3& p : scan_points)
+    seen += ((p - place).cwiseAbs() - s * SEEN).maxCoeff() < 0;
   const auto buttock = buttock_level(levels);
   const double by_stature = rules.number("crotch.of_stature") * s;
   const double expected =
@@ -59,7 +66,8 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, cons
   const double too_low = (expected - found) / limit,
                doubt = always ? 1 : std::clamp(2 * (too_low - 0.75), 0.0, 1.0);
   const bool fused = doubt > 0;
-  if ((whole || seen >= 3) && !fused) return false;
+  if ((whole || seen >= 3) && !fused)
+    return false;
   const double y = fused ? found + doubt * (expected - found) : 0.5 * (expected + found + SAG * s),
                moved = fused ? doubt : 1;
   levels.move_crotch(y, place.z());

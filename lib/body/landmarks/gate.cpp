@@ -47,7 +47,8 @@ public:
     return (at(a) - at(b)).norm() / m_s;
   }
   void within(const char* what, double share, const Bounds& bounds, const std::string& place) {
-    if (share >= bounds.low && share <= bounds.high) return;
+    if (share >= bounds.low && share <= bounds.high)
+      return;
     char text[200];
     std::snprintf(text, sizeof text,
                   "%s is %.3f of the stature, a standing person's is %.2f to %.2f", what, share,
@@ -80,7 +81,8 @@ double degrees_between_lines(const Vec3& a, const Vec3& b) {
 }
 
 void ask_head(Gate& gate, double s) {
-  if (!gate.know({"head_tip", "neck_center"})) return;
+  if (!gate.know({"head_tip", "neck_center"}))
+    return;
   const Vec3 crown = gate.at("head_tip") - gate.at("neck_center");
   gate.within("the crown above the neck", crown.y() / s, HEAD, "head_tip");
   if (const double aside = std::hypot(crown.x(), crown.z()) / s; aside > CROWN_ASIDE)
@@ -95,7 +97,8 @@ void ask_legs(Gate& gate, double s) {
   if (gate.know({"crotch"}))
     gate.within("the crotch's height", gate.at("crotch").y() / s, CROTCH, "crotch");
   for (const std::string side : {"_l", "_r"}) {
-    if (!gate.know({"hip_joint" + side, "knee" + side, "ankle" + side})) continue;
+    if (!gate.know({"hip_joint" + side, "knee" + side, "ankle" + side}))
+      continue;
     const double bent = degrees_between_lines(gate.at("hip_joint" + side) - gate.at("knee" + side),
                                               gate.at("knee" + side) - gate.at("ankle" + side));
     if (bent > KNEE_BENT)
@@ -109,7 +112,8 @@ void ask_arms(Gate& gate, double s) {
   double length[2] = {0, 0};
   for (int k = 0; k < 2; ++k) {
     const std::string side = k == 0 ? "_l" : "_r";
-    if (!gate.know({"shoulder_joint" + side, "elbow" + side, "wrist" + side})) continue;
+    if (!gate.know({"shoulder_joint" + side, "elbow" + side, "wrist" + side}))
+      continue;
     const double upper = gate.distance("shoulder_joint" + side, "elbow" + side),
                  fore = gate.distance("elbow" + side, "wrist" + side);
     gate.within("the upper arm", upper, UPPER_ARM, "elbow" + side);
@@ -153,7 +157,8 @@ void ask_trunk(Gate& gate, const Body& body) {
 
 std::vector<Finding> doubts_of(const Body& body, double unlikeness) {
   Gate gate(body);
-  if (body.scan.stature_m <= 0) return {};
+  if (body.scan.stature_m <= 0)
+    return {};
   ask_head(gate, body.scan.stature_m);
   ask_legs(gate, body.scan.stature_m);
   ask_arms(gate, body.scan.stature_m);

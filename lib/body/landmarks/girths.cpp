@@ -29,7 +29,8 @@ double ring_length(const std::array<Vec3, 4>& corner) {
 /// Length of the circle that fits the points best (Kasa 1976: least squares of |p|^2 - 2 c.p - k);
 /// 0 for too few of them.
 double circle_through(const std::vector<Vec2>& points) {
-  if (points.size() < 10) return 0;
+  if (points.size() < 10)
+    return 0;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   Vec3 right = Vec3::Zero();
   for (const Vec2& p : points) {
@@ -62,8 +63,10 @@ ArmGirth arm_girth(const Finder& f, const ArmTrace& arm, const Vec3& center, con
     if (loop.area > 0 && loop.centroid.norm() < (nearest ? nearest->centroid.norm() : 0.05 * f.s))
       nearest = &loop;
   ArmGirth girth;
-  if (nearest) girth.value = taut_girth(*nearest);
-  if (nearest && girth.value < TOO_WIDE * usual) return girth;
+  if (nearest)
+    girth.value = taut_girth(*nearest);
+  if (nearest && girth.value < TOO_WIDE * usual)
+    return girth;
   // the free side faces away from the body's middle plane, square to the arm
   const Vec3 out = (arm.left ? Vec3::UnitX() : Vec3(-Vec3::UnitX())) -
                    (arm.left ? axis.x() : -axis.x()) / axis.squaredNorm() * axis;
@@ -85,7 +88,8 @@ ArmGirth arm_girth(const Finder& f, const ArmTrace& arm, const Vec3& center, con
 double crotch_length(const Finder& f) {
   constexpr double BESIDE = 0.03, STEP = 0.005; // of stature
   const auto waist = f.body.levels.find("waist_semantic");
-  if (!f.has("crotch") || waist == f.body.levels.end()) return 0;
+  if (!f.has("crotch") || waist == f.body.levels.end())
+    return 0;
   const Vec3& crotch = f.at("crotch");
   const double top = waist->second.y;
   std::vector<Vec2> outline = {Vec2(crotch.z(), crotch.y())};
@@ -94,10 +98,12 @@ double crotch_length(const Finder& f) {
   for (int k = 1; k <= n; ++k) {
     const double y = crotch.y() + (top - crotch.y()) * k / n;
     const auto profile = midline(f.levels, y, crotch.x(), BESIDE * f.s);
-    if (!profile) continue;
+    if (!profile)
+      continue;
     outline.emplace_back(profile->front, y);
     outline.emplace_back(profile->back, y);
-    if (k == n) across = profile->front - profile->back;
+    if (k == n)
+      across = profile->front - profile->back;
   }
   return across > 0 ? closed_length(convex_hull(outline)) - across : 0;
 }
@@ -111,13 +117,15 @@ void find_girths(const Finder& f) {
   for (int side = 0; side < 2; ++side) {
     const std::string suffix = side_suffix(side);
     auto put = [&](const char* name, double value) {
-      if (value > 0) f.body.girths[name + suffix] = {value, 0.003};
+      if (value > 0)
+        f.body.girths[name + suffix] = {value, 0.003};
     };
     auto leg_girth = [&](double y) {
       const auto loop = f.levels.leg_at(y, side);
       return loop ? taut_girth(*loop) : 0.0;
     };
-    if (f.has("crotch")) put("thigh", leg_girth(f.at("crotch").y() - 0.010));
+    if (f.has("crotch"))
+      put("thigh", leg_girth(f.at("crotch").y() - 0.010));
     if (f.has("knee" + suffix) && f.has("ankle" + suffix)) {
       const double knee = f.at("knee" + suffix).y(), ankle = f.at("ankle" + suffix).y();
       put("knee", leg_girth(knee));
@@ -128,9 +136,11 @@ void find_girths(const Finder& f) {
           calf_y = y;
         }
       for (double y = ankle; y < calf_y; y += 0.004)
-        if (const double g = leg_girth(y); g > 0) least = std::min(least, g);
+        if (const double g = leg_girth(y); g > 0)
+          least = std::min(least, g);
       put("calf", calf);
-      if (least < 1e299) put("ankle_min", least);
+      if (least < 1e299)
+        put("ankle_min", least);
     }
     const ArmTrace& arm = f.arms[side];
     if (arm.sections.empty() || !f.has("elbow" + suffix) || !f.has("shoulder_joint" + suffix) ||
@@ -152,7 +162,8 @@ void find_girths(const Finder& f) {
   }
   // neck rings run higher at the sides than in front: quarter ellipses through four points of the
   // skin
-  if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center")) return;
+  if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center"))
+    return;
   const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), center = f.at("neck_center");
   const double rise = f.number("neck.girth_up") * s, side_rise = f.number("neck.girth_up_side") * s;
   const auto fore = midline(f.levels, front.y() + rise, center.x(), 0.006 * s),

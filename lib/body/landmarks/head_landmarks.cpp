@@ -9,7 +9,8 @@ namespace sloper::body {
 
 std::optional<Profile> midline(const LevelStack& levels, double y, double x, double half_width) {
   const auto& loop = levels.trunk_at(y);
-  if (!loop) return std::nullopt;
+  if (!loop)
+    return std::nullopt;
   Profile profile{-1e300, 1e300};
   for (const auto& segment : loop->segments)
     if (const auto piece = clipped(segment, 0, x - half_width, x + half_width))
@@ -17,7 +18,8 @@ std::optional<Profile> midline(const LevelStack& levels, double y, double x, dou
         profile.front = std::max(profile.front, q.y());
         profile.back = std::min(profile.back, q.y());
       }
-  if (profile.front < profile.back) return std::nullopt;
+  if (profile.front < profile.back)
+    return std::nullopt;
   return profile;
 }
 
@@ -44,7 +46,8 @@ std::optional<double> hollow_of_throat(const Finder& f, double x) {
   for (double y = low; y <= high; y += THROAT_STEP * f.s)
     if (const auto m = midline(f.levels, y, x, THROAT_HALF_WIDTH * f.s))
       fronts.emplace_back(y, m->front);
-  if (fronts.empty()) return std::nullopt;
+  if (fronts.empty())
+    return std::nullopt;
   const Lowest deepest = lowest_of(fronts, AS_DEEP);
   if (deepest.least < low + THROAT_MARGIN * f.s || deepest.least > high - THROAT_MARGIN * f.s)
     return std::nullopt;
@@ -59,9 +62,11 @@ std::optional<double> shoulder_turn(const Finder& f) {
   for (double y = f.number("neck_side.turn_high") * s; y > low; y -= step) {
     const auto &above = f.levels.trunk_at(y + TURN_REACH * step),
                &below = f.levels.trunk_at(y - TURN_REACH * step);
-    if (!above || !below) continue;
+    if (!above || !below)
+      continue;
     const double widening = 0.5 * (below->size().x() - above->size().x()) / (3 * step);
-    if (widening > f.number("neck_side.widening") && below->size().x() > least_breadth) return y;
+    if (widening > f.number("neck_side.widening") && below->size().x() > least_breadth)
+      return y;
   }
   return std::nullopt;
 }
@@ -88,13 +93,16 @@ std::optional<Vec3> top_of_head(const TriangleMesh& skin) {
   constexpr double AS_HIGH = 0.0015; // m
   constexpr int PIECES = 6;          // a face of a coarse mesh is larger than the flat part
   double top = -1e300;
-  for (const Vec3& p : skin.positions) top = std::max(top, p.y());
-  if (top < -1e299) return std::nullopt;
+  for (const Vec3& p : skin.positions)
+    top = std::max(top, p.y());
+  if (top < -1e299)
+    return std::nullopt;
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (const Triangle& t : skin.triangles) {
     const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
-    if (std::max({a.y(), b.y(), c.y()}) < top - AS_HIGH) continue;
+    if (std::max({a.y(), b.y(), c.y()}) < top - AS_HIGH)
+      continue;
     const double area = area_normal(a, b, c).norm();
     for (int i = 0; i < PIECES; ++i)
       for (int j = 0; j + i < PIECES; ++j) {
@@ -120,11 +128,13 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
       f.choose<double>("neck_side", "neck_side",
                        {{"neck_meets_shoulders",
                          [&]() -> std::optional<double> {
-                           if (!turn) return std::nullopt;
+                           if (!turn)
+                             return std::nullopt;
                            return 0.5 * (above_back + *turn);
                          }},
                         {"above_neck_back", [&] { return std::optional(above_back); }}});
-  if (!height) return;
+  if (!height)
+    return;
   double side_y = height->value;
   auto outer_at = [&](double y, int side, double near) {
     const double sign = side == 0 ? 1 : -1;
@@ -133,7 +143,8 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
       for (const auto& seg : loop->segments)
         if (const auto piece = clipped(seg, 1, depth - near * s, depth + near * s))
           for (const Vec2& q : *piece)
-            if (sign * (q.x() - x) > 0 && (!outer || sign * q.x() > sign * outer->x())) outer = q;
+            if (sign * (q.x() - x) > 0 && (!outer || sign * q.x() > sign * outer->x()))
+              outer = q;
     return outer;
   };
   // where the shoulders are nearly level a millimetre of height is a centimetre of breadth: too
@@ -142,7 +153,8 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
                limit = side_y + f.number("neck_side.most_up") * s;
   for (; side_y < limit; side_y += SIDE_STEP * s) {
     const auto l = outer_at(side_y, 0, SIDE_DEPTH_NEAR), r = outer_at(side_y, 1, SIDE_DEPTH_NEAR);
-    if (l && r && 0.5 * (l->x() - r->x()) < broadest) break;
+    if (l && r && 0.5 * (l->x() - r->x()) < broadest)
+      break;
   }
   for (int side = 0; side < 2; ++side)
     if (const auto close = outer_at(side_y, side, SIDE_DEPTH_NEAR),
@@ -170,12 +182,14 @@ void find_head_landmarks(const Finder& f) {
       "neck_front", "neck_front",
       {{"hollow_of_throat",
         [&]() -> Height {
-          if (!hollow) return std::nullopt;
+          if (!hollow)
+            return std::nullopt;
           const double w = f.number("neck_front.hollow_weight");
           return (1 - w) * front_ratio + w * (*hollow - f.number("neck_front.below_hollow") * s);
         }},
        {"height_ratio", [&] { return Height(front_ratio); }}});
-  if (!front_y) return;
+  if (!front_y)
+    return;
   const double front_at =
       f.more_likely("neck_front", front_y->value + f.correction("neck_front").y());
   const Height by_throat =
@@ -184,18 +198,21 @@ void find_head_landmarks(const Finder& f) {
   const auto back_y = f.choose<double>("neck_back", "neck_back",
                                        {{"neck_meets_shoulders",
                                          [&]() -> Height {
-                                           if (!by_turn) return std::nullopt;
+                                           if (!by_turn)
+                                             return std::nullopt;
                                            return by_throat
                                                       ? (back_ratio + *by_throat + *by_turn) / 3
                                                       : 0.5 * (back_ratio + *by_turn);
                                          }},
                                         {"above_throat",
                                          [&]() -> Height {
-                                           if (!by_throat) return std::nullopt;
+                                           if (!by_throat)
+                                             return std::nullopt;
                                            return 0.5 * (back_ratio + *by_throat);
                                          }},
                                         {"height_ratio", [&] { return Height(back_ratio); }}});
-  if (!back_y) return;
+  if (!back_y)
+    return;
   const double back_at = f.more_likely("neck_back", back_y->value + f.correction("neck_back").y());
   const auto back = midline(f.levels, back_at, x, NAPE_HALF_WIDTH * s),
              front = midline(f.levels, front_at, x, THROAT_HALF_WIDTH * s);
@@ -210,10 +227,13 @@ void find_head_landmarks(const Finder& f) {
       f.also(name, Vec3(x, y, in_front ? m->front : m->back));
   };
   also("neck_front", front_ratio, true);
-  if (hollow) also("neck_front", *hollow - f.number("neck_front.below_hollow") * s, true);
+  if (hollow)
+    also("neck_front", *hollow - f.number("neck_front.below_hollow") * s, true);
   also("neck_back", back_ratio, false);
-  if (by_throat) also("neck_back", *by_throat, false);
-  if (by_turn) also("neck_back", *by_turn, false);
+  if (by_throat)
+    also("neck_back", *by_throat, false);
+  if (by_turn)
+    also("neck_back", *by_turn, false);
   find_neck_sides(f, x, back_at, turn,
                   back->back + f.number("neck_side.from_back") * (front->front - back->back));
   const Vec3 center(x, 0.5 * (back_at + front_at), 0.5 * (back->back + front->front));

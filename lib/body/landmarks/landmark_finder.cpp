@@ -21,12 +21,17 @@ Vec3 nearest_in(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
   const double d1 = ab.dot(p - a), d2 = ac.dot(p - a), d3 = ab.dot(p - b), d4 = ac.dot(p - b),
                d5 = ab.dot(p - c), d6 = ac.dot(p - c);
-  if (d1 <= 0 && d2 <= 0) return a;
-  if (d3 >= 0 && d4 <= d3) return b;
-  if (d6 >= 0 && d5 <= d6) return c;
+  if (d1 <= 0 && d2 <= 0)
+    return a;
+  if (d3 >= 0 && d4 <= d3)
+    return b;
+  if (d6 >= 0 && d5 <= d6)
+    return c;
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0)
+    return a + d1 / (d1 - d3) * ab;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0)
+    return a + d2 / (d2 - d6) * ac;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
     return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
   const double sum = va + vb + vc;
@@ -38,7 +43,8 @@ Vec3 nearest_skin(const TriangleMesh& skin, const Vec3& p, double reach) {
   Vec3 best = p;
   double least = 1e300;
   for (const Triangle& t : skin.triangles) {
-    if ((skin.positions[t[0]] - p).squaredNorm() > reach * reach) continue;
+    if ((skin.positions[t[0]] - p).squaredNorm() > reach * reach)
+      continue;
     const Vec3 q = nearest_in(p, skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]);
     if (const double d = (q - p).squaredNorm(); d < least) {
       least = d;
@@ -52,10 +58,13 @@ Vec3 nearest_skin(const TriangleMesh& skin, const Vec3& p, double reach) {
 
 Vec3 Finder::correction(const std::string& place, const std::string& suffix) const {
   int side = -1; // places without one
-  if (suffix == "_l") side = 0;
-  if (suffix == "_r") side = 1;
+  if (suffix == "_l")
+    side = 0;
+  if (suffix == "_r")
+    side = 1;
   Vec3 offset = s * corrections.offset(place, shape, side);
-  if (side == 1) offset.x() = -offset.x();
+  if (side == 1)
+    offset.x() = -offset.x();
   return offset;
 }
 
@@ -66,9 +75,11 @@ double Finder::by_population(const std::string& place, double otherwise) const {
 
 double Finder::more_likely(const std::string& place, double y) const {
   const auto expected = corrections.expected(place, shape, -1);
-  if (!expected) return y;
+  if (!expected)
+    return y;
   const double off = y / s - expected->height;
-  if (std::abs(off) < Corrections::DISAGREE * expected->sd) return y;
+  if (std::abs(off) < Corrections::DISAGREE * expected->sd)
+    return y;
   char text[160];
   std::snprintf(text, sizeof text,
                 "%s: by the rest of the body, which lets expect it %.0f mm %s than its rule",
@@ -82,7 +93,8 @@ Vec3 Finder::corrected(const std::string& place, const std::string& suffix, cons
   constexpr double REACH =
       0.06; // of stature: corrections are half as large at most, and faces have a size
   const Vec3 offset = correction(place, suffix);
-  if (offset.isZero()) return p;
+  if (offset.isZero())
+    return p;
   return on_skin ? nearest_skin(levels.skin(), p + offset, REACH * s) : Vec3(p + offset);
 }
 
@@ -96,7 +108,8 @@ bool Finder::find(const std::string& place, const std::string& suffix, int step,
 }
 
 void Finder::put(const std::string& name, const Vec3& p, int step, const RuleChoice& rule) const {
-  if (!p.allFinite()) return;
+  if (!p.allFinite())
+    return;
   body.landmarks[name] = {p, step, rule.name, rule.confidence, rule.spread_m, {}};
 }
 
@@ -112,7 +125,8 @@ void Finder::also(const std::string& name, const Vec3& p) const {
 }
 
 double Finder::number(const std::string& name) const {
-  if (!rules.has(name + ".female")) return rules.number(name);
+  if (!rules.has(name + ".female"))
+    return rules.number(name);
   return figure.female * rules.number(name + ".female") +
          (1 - figure.female) * rules.number(name + ".male");
 }

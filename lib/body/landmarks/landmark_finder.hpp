@@ -59,11 +59,13 @@ struct Finder {
   std::optional<Chosen<T>> choose(const std::string& place, const std::string& label,
                                   std::initializer_list<LandmarkRule<T>> known) const {
     for (const RuleChoice& rule : rules.order(place)) {
-      if (!rule.applies(situation)) continue;
+      if (!rule.applies(situation))
+        continue;
       const auto named = std::find_if(known.begin(), known.end(), [&](const LandmarkRule<T>& k) {
         return rule.name == k.rule;
       });
-      if (named == known.end()) no_such_rule(place, rule.name);
+      if (named == known.end())
+        no_such_rule(place, rule.name);
       if (auto value = named->find()) {
         explain(label + ": " + rule.name);
         return Chosen<T>{std::move(*value), &rule};
@@ -101,7 +103,9 @@ struct Finder {
   [[noreturn]] static void no_such_rule(const std::string& place, const std::string& rule);
 };
 
-inline const char* side_suffix(int side) { return side == 0 ? "_l" : "_r"; }
+inline const char* side_suffix(int side) {
+  return side == 0 ? "_l" : "_r";
+}
 
 /// The trunk outline at a height as front and back depth near x = 0, m; empty where there is no
 /// trunk.

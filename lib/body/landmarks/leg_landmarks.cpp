@@ -20,8 +20,10 @@ constexpr double LEG_FLAT = 0.001;     ///< m: as far out as makes no difference
 std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
   std::vector<Vec2> backs; // height, depth from the front
   for (double y = around - HOLLOW_BELOW * f.s; y <= around + HOLLOW_ABOVE * f.s; y += 0.0025 * f.s)
-    if (const auto loop = f.levels.leg_at(y, side)) backs.emplace_back(y, -loop->low.y());
-  if (backs.empty()) return std::nullopt;
+    if (const auto loop = f.levels.leg_at(y, side))
+      backs.emplace_back(y, -loop->low.y());
+  if (backs.empty())
+    return std::nullopt;
   const Lowest deepest = lowest_of(backs, LEG_FLAT);
   if (deepest.least < around - (HOLLOW_BELOW - 0.003) * f.s ||
       deepest.least > around + (HOLLOW_ABOVE - 0.003) * f.s)
@@ -41,7 +43,8 @@ std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double d
   for (std::size_t v = 0; v < points.size(); ++v)
     if (points[v].y() <= ankle_y && points[v].y() > -0.01 * f.s && sign * points[v].x() > 0)
       foot.push_back(static_cast<int>(v));
-  if (foot.size() < 10) return std::nullopt;
+  if (foot.size() < 10)
+    return std::nullopt;
   auto farther = [&](int a, int b) {
     const double za = direction * points[a].z(), zb = direction * points[b].z();
     return za != zb ? za > zb : a < b;
@@ -51,7 +54,8 @@ std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double d
         points[*std::min_element(foot.begin(), foot.end(), farther)].z() - AS_LONG * f.s;
     double inner = 1e300;
     for (const int v : foot)
-      if (points[v].z() > end) inner = std::min(inner, sign * points[v].x());
+      if (points[v].z() > end)
+        inner = std::min(inner, sign * points[v].x());
     std::erase_if(foot, [&](int v) {
       return points[v].z() > end && sign * points[v].x() > inner + TOE * f.s;
     });
@@ -60,8 +64,10 @@ std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double d
   std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(n), foot.end(),
                     farther);
   Vec3 mean = Vec3::Zero();
-  for (std::size_t k = 0; k < n; ++k) mean += points[foot[k]] / static_cast<double>(n);
-  if (direction > 0) return mean;
+  for (std::size_t k = 0; k < n; ++k)
+    mean += points[foot[k]] / static_cast<double>(n);
+  if (direction > 0)
+    return mean;
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (const int v : foot)
@@ -81,15 +87,18 @@ void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
   const auto height = f.choose<double>("knee", "knee" + suffix,
                                        {{"leg_ratio_and_hollow",
                                          [&]() -> std::optional<double> {
-                                           if (!by_hollow) return std::nullopt;
+                                           if (!by_hollow)
+                                             return std::nullopt;
                                            return 0.5 * (by_ratio + *by_hollow);
                                          }},
                                         {"leg_ratio", [&] { return std::optional(by_ratio); }}});
-  if (!height) return;
+  if (!height)
+    return;
   const Vec3 learned = f.correction("knee", suffix);
   const double knee_y = height->value + learned.y();
   const auto section = f.levels.leg_at(knee_y, side);
-  if (!section) return;
+  if (!section)
+    return;
   const Vec2 cap = outermost(*section, Vec2::UnitY(), LEG_FLAT);
   f.find("patella", suffix, 2,
          {{"foremost_at_knee", [&] { return std::optional(Vec3(cap.x(), knee_y, cap.y())); }}});
@@ -97,7 +106,8 @@ void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
                    cap.y() - f.number("knee.behind_patella") * f.s + learned.z());
   f.put("knee" + suffix, joint, 2, *height->rule);
   f.also("knee" + suffix, Vec3(joint.x(), by_ratio, joint.z()));
-  if (by_hollow) f.also("knee" + suffix, Vec3(joint.x(), *by_hollow, joint.z()));
+  if (by_hollow)
+    f.also("knee" + suffix, Vec3(joint.x(), *by_hollow, joint.z()));
 }
 
 /// Hip joint, knee and ankle of one leg, below a crotch that was found.
@@ -114,7 +124,8 @@ void find_leg(const Finder& f, int side) {
   find_end("foot_tip", "foremost_of_foot", 1);
   find_end("heel", "rearmost_of_foot", -1);
   const auto top = f.levels.leg_at(crotch_y - 0.010, side);
-  if (!top) return;
+  if (!top)
+    return;
   f.find("leg_top", suffix, 2,
          {{"section_under_crotch", [&] {
              return std::optional(Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y()));
@@ -131,7 +142,8 @@ void find_leg(const Finder& f, int side) {
          Vec3(top->centroid.x() + sign * f.number("hip_joint.from_leg_top") * s, hip.y(), hip.z()));
   f.also("hip_joint" + suffix, Vec3(sign * f.number("hip_joint.aside") * s, hip.y(), hip.z()));
   const auto ankle = f.levels.leg_at(ankle_y, side);
-  if (!ankle) return;
+  if (!ankle)
+    return;
   // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer
   // to the heel
   const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y,
@@ -147,7 +159,8 @@ void find_leg(const Finder& f, int side) {
 } // namespace
 
 void find_leg_landmarks(const Finder& f) {
-  if (!f.levels.crotch()) return;
+  if (!f.levels.crotch())
+    return;
   const Vec3 crotch(f.levels.crotch_point().x(), *f.levels.crotch(), f.levels.crotch_point().y());
   auto when = [&](bool moved) {
     return moved == f.crotch_moved ? std::optional(crotch) : std::nullopt;
@@ -166,7 +179,8 @@ void find_leg_landmarks(const Finder& f) {
                   other->z() < crotch.z() ? "back" : "forward");
     f.body.scan.findings.push_back({"scan.crotch-estimated"_id, "warning", text, "crotch"});
   }
-  for (int side = 0; side < 2; ++side) find_leg(f, side);
+  for (int side = 0; side < 2; ++side)
+    find_leg(f, side);
   if (f.has("hip_joint_l") && f.has("hip_joint_r"))
     f.find("hip_center", "", 2,
            {{"middle_of_hip_joints", [&] {

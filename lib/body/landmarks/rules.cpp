@@ -25,22 +25,26 @@ void merge_numbers(Numbers& numbers, const io::Node& table, bool may_add) {
     const io::Node entry = table.at(key);
     if (!may_add && !numbers.count(key)) {
       std::vector<std::string> names;
-      for (const auto& [known, value] : numbers) names.push_back(known);
+      for (const auto& [known, value] : numbers)
+        names.push_back(known);
       unknown(entry, "no rule has a number", key, names);
     }
     if (entry.is_object()) {
       entry.allow_only({"value", "why"});
       numbers[key] = entry.at("value").number();
-    } else numbers[key] = entry.number();
+    } else
+      numbers[key] = entry.number();
   }
 }
 
 std::string one_of(const io::Node& when, const char* key,
                    std::initializer_list<const char*> values) {
   const std::string value = when.string(key, "");
-  if (value.empty() || std::find(values.begin(), values.end(), value) != values.end()) return value;
+  if (value.empty() || std::find(values.begin(), values.end(), value) != values.end())
+    return value;
   std::string list;
-  for (const char* v : values) list += std::string(list.empty() ? "\"" : ", \"") + v + "\"";
+  for (const char* v : values)
+    list += std::string(list.empty() ? "\"" : ", \"") + v + "\"";
   when.at(key).fail("json.unknown-word"_id, "is \"" + value + "\"", "one of " + list);
 }
 
@@ -49,7 +53,8 @@ void read_conditions(const io::Node& when, RuleChoice& rule) {
   rule.figure = one_of(when, "figure", {"female", "male"});
   rule.skin = one_of(when, "skin", {"own", "rebuilt"});
   rule.stance.clear();
-  if (!when.has("stance")) return;
+  if (!when.has("stance"))
+    return;
   const io::Node list = when.at("stance");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string letter = list.at(i).string();
@@ -72,26 +77,32 @@ RuleChoice read_choice(const io::Node& entry, const std::string& place,
                                  [&](const RuleChoice& k) { return k.name == rule.name; });
     if (it == known->end()) {
       std::vector<std::string> names;
-      for (const RuleChoice& k : *known) names.push_back(k.name);
+      for (const RuleChoice& k : *known)
+        names.push_back(k.name);
       unknown(entry, (place + " has no rule").c_str(), rule.name, names);
     }
     rule = *it;
   }
-  if (!entry.is_object()) return rule;
+  if (!entry.is_object())
+    return rule;
   entry.allow_only({"rule", "why", "when", "confidence", "spread_m", "uses"});
   rule.why = entry.string("why", rule.why);
-  if (entry.has("when")) read_conditions(entry.at("when"), rule);
+  if (entry.has("when"))
+    read_conditions(entry.at("when"), rule);
   rule.confidence = entry.number("confidence", rule.confidence);
   rule.spread_m = entry.number("spread_m", rule.spread_m);
   if (rule.confidence < 0 || rule.confidence > 1)
     entry.at("confidence").fail("json.out-of-range"_id, "is outside 0..1");
-  if (rule.spread_m < 0) entry.at("spread_m").fail("json.out-of-range"_id, "is negative");
-  if (!entry.has("uses")) return rule;
+  if (rule.spread_m < 0)
+    entry.at("spread_m").fail("json.out-of-range"_id, "is negative");
+  if (!entry.has("uses"))
+    return rule;
   const io::Node uses = entry.at("uses");
   if (known)
     uses.fail("rules.malformed"_id,
               "says which numbers a rule of the program uses, which a file cannot change");
-  for (std::size_t i = 0; i < uses.size(); ++i) rule.uses.push_back(uses.at(i).string());
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    rule.uses.push_back(uses.at(i).string());
   return rule;
 }
 
@@ -101,10 +112,12 @@ void merge_tree(Tree& tree, const io::Node& table, bool may_add) {
     const auto known = tree.find(place);
     if (!may_add && known == tree.end()) {
       std::vector<std::string> names;
-      for (const auto& [name, rules] : tree) names.push_back(name);
+      for (const auto& [name, rules] : tree)
+        names.push_back(name);
       unknown(list, "the tree has no place", place, names);
     }
-    if (!list.is_array()) list.fail("json.wrong-type"_id, "is not a list of rules");
+    if (!list.is_array())
+      list.fail("json.wrong-type"_id, "is not a list of rules");
     std::vector<RuleChoice> rules;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const RuleChoice rule = read_choice(list.at(i), place, may_add ? nullptr : &known->second);
@@ -132,8 +145,10 @@ void merge(Numbers& numbers, Tree& tree, const std::string& text, const std::str
     root.fail("json.newer-version"_id, "is of a newer version than this program reads (1)");
   if (!root.has("numbers") && !root.has("tree"))
     root.fail("rules.malformed"_id, "has neither \"numbers\" nor \"tree\"");
-  if (root.has("numbers")) merge_numbers(numbers, root.at("numbers"), may_add);
-  if (root.has("tree")) merge_tree(tree, root.at("tree"), may_add);
+  if (root.has("numbers"))
+    merge_numbers(numbers, root.at("numbers"), may_add);
+  if (root.has("tree"))
+    merge_tree(tree, root.at("tree"), may_add);
 }
 
 } // namespace

@@ -44,9 +44,11 @@ std::vector<Finding> second_opinions(Body& body, const Corrections& corrections,
   const double s = body.scan.stature_m;
   for (const Place& place : PLACES) {
     const auto found = body.landmarks.find(place.landmark);
-    if (found == body.landmarks.end()) continue;
+    if (found == body.landmarks.end())
+      continue;
     const auto expected = corrections.expected(place.learned, features, place.side);
-    if (!expected) continue;
+    if (!expected)
+      continue;
     Landmark& landmark = found->second;
     const double off = landmark.p.y() - expected->height * s, deviations = off / (expected->sd * s);
     char text[200];
@@ -59,7 +61,8 @@ std::vector<Finding> second_opinions(Body& body, const Corrections& corrections,
     trail.emplace_back(text);
     landmark.confidence *=
         std::max(LEAST_AGREEMENT, std::exp(-0.5 * deviations * deviations / BROAD));
-    if (std::abs(deviations) < Corrections::DISAGREE) continue;
+    if (std::abs(deviations) < Corrections::DISAGREE)
+      continue;
     landmark.alternatives.emplace_back(landmark.p.x(), expected->height * s, landmark.p.z());
     std::snprintf(text, sizeof text, "the rest of the body lets expect it %.0f mm %s: look at it",
                   1000 * std::abs(off), off > 0 ? "lower" : "higher");

@@ -23,12 +23,15 @@ struct Depth {
 
 Depth depth_of(const std::optional<Loop>& loop, double half) {
   Depth depth;
-  if (!loop) return depth;
+  if (!loop)
+    return depth;
   for (const auto& segment : loop->segments)
     if (const auto piece = clipped(segment, 0, -half, half))
       for (const Vec2& q : *piece) {
-        if (!(q.y() <= depth.front)) depth.front = q.y();
-        if (!(q.y() >= depth.back)) depth.back = q.y();
+        if (!(q.y() <= depth.front))
+          depth.front = q.y();
+        if (!(q.y() >= depth.back))
+          depth.back = q.y();
       }
   return depth;
 }
@@ -77,8 +80,10 @@ void add_trunk(Row& row, const LevelStack& levels, double sign) {
     row.add(numbered("head_breadth", part), loop ? std::min(loop->size().x() / s, 0.2) : NONE);
     row.add(numbered("head_aside", part),
             loop ? std::clamp(sign * loop->center().x() / s, -0.1, 0.1) : NONE);
-    if (part > 0.9) row.add(numbered("head_depth", part), loop ? loop->size().y() / s : NONE);
-    if (part > 0.9) row.add(numbered("head_before", part), loop ? loop->center().y() / s : NONE);
+    if (part > 0.9)
+      row.add(numbered("head_depth", part), loop ? loop->size().y() / s : NONE);
+    if (part > 0.9)
+      row.add(numbered("head_before", part), loop ? loop->center().y() / s : NONE);
   }
 }
 
@@ -133,7 +138,8 @@ void add_shoulder(Row& row, const LevelStack& levels, double sign) {
   constexpr double ACROSS[] = {0.045, 0.06, 0.08, 0.1, 0.12};
   double top[5] = {NONE, NONE, NONE, NONE, NONE}, depth[5] = {NONE, NONE, NONE, NONE, NONE};
   for (const Vec3& p : levels.skin().positions) {
-    if (p.y() > 0.87 * s || p.y() < 0.7 * s) continue;
+    if (p.y() > 0.87 * s || p.y() < 0.7 * s)
+      continue;
     for (int k = 0; k < 5; ++k)
       if (std::abs(sign * p.x() - ACROSS[k] * s) < 0.006 * s && !(p.y() <= top[k])) {
         top[k] = p.y();

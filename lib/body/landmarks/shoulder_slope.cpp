@@ -32,15 +32,17 @@ public:
     m_s = s;
     m_top.assign(static_cast<std::size_t>((last - first) / SLOPE_STEP) + 1, NONE);
     for (const Loop& loop : loops)
-      for (const auto& segment : loop.segments) add(segment, middle, outward);
+      for (const auto& segment : loop.segments)
+        add(segment, middle, outward);
   }
   /// @param aside share of stature
   std::optional<double> angle(double aside) const {
     const int half = static_cast<int>(0.5 * OVER / SLOPE_STEP + 0.5),
               k = static_cast<int>((aside - m_first) / SLOPE_STEP + 0.5);
-    if (k - half < 0 || k >= static_cast<int>(m_top.size()) || m_top[k - half] == NONE)
+    if (k - half < 0 || k >= std::ssize(m_top) || m_top[k - half] == NONE)
       return std::nullopt;
-    if (k + half >= static_cast<int>(m_top.size()) || m_top[k + half] == NONE) return PAST_THE_ARM;
+    if (k + half >= std::ssize(m_top) || m_top[k + half] == NONE)
+      return PAST_THE_ARM;
     return units::degrees(
         std::atan((m_top[k + half] - m_top[k - half]) / (2 * half * SLOPE_STEP * m_s)));
   }
@@ -50,7 +52,8 @@ private:
   void add(const std::array<Vec2, 2>& segment, double middle, double outward) {
     double a = outward * (segment[0].x() - middle) / m_s,
            b = outward * (segment[1].x() - middle) / m_s, ya = segment[0].y(), yb = segment[1].y();
-    if (ya > UNDER_HEAD * m_s || yb > UNDER_HEAD * m_s) return;
+    if (ya > UNDER_HEAD * m_s || yb > UNDER_HEAD * m_s)
+      return;
     if (a > b) {
       std::swap(a, b);
       std::swap(ya, yb);
@@ -71,7 +74,8 @@ private:
 double lean_of(const Finder& f) {
   const double low = 0.62 * f.s;
   const auto& trunk = f.levels.trunk_at(low);
-  if (!trunk || !f.has("neck_center")) return 0;
+  if (!trunk || !f.has("neck_center"))
+    return 0;
   const Vec3& neck = f.at("neck_center");
   return units::degrees(std::atan2(neck.x() - trunk->center().x(), neck.y() - low));
 }
@@ -85,14 +89,18 @@ std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, do
     if (std::min({a.x(), b.x(), c.x()}) > x || std::max({a.x(), b.x(), c.x()}) < x ||
         std::min({a.z(), b.z(), c.z()}) > z || std::max({a.z(), b.z(), c.z()}) < z)
       continue;
-    if (a.y() > UNDER_HEAD * stature) continue;
+    if (a.y() > UNDER_HEAD * stature)
+      continue;
     const double area = (b.x() - a.x()) * (c.z() - a.z()) - (c.x() - a.x()) * (b.z() - a.z());
-    if (std::abs(area) < 1e-14) continue;
+    if (std::abs(area) < 1e-14)
+      continue;
     const double u = ((x - a.x()) * (c.z() - a.z()) - (c.x() - a.x()) * (z - a.z())) / area,
                  v = ((b.x() - a.x()) * (z - a.z()) - (x - a.x()) * (b.z() - a.z())) / area;
-    if (u < 0 || v < 0 || u + v > 1) continue;
+    if (u < 0 || v < 0 || u + v > 1)
+      continue;
     const double y = a.y() + u * (b.y() - a.y()) + v * (c.y() - a.y());
-    if (!top || y > top->y()) top = Vec3(x, y, z);
+    if (!top || y > top->y())
+      top = Vec3(x, y, z);
   }
   return top;
 }
@@ -126,15 +134,18 @@ std::optional<double> acromion_aside_by_slope(const Finder& f, double depth, dou
 
 void weigh_acromion_by_slope(const Finder& f, int side, double raised) {
   const std::string name = std::string("acromion") + side_suffix(side);
-  if (!f.has(name) || !f.has("neck_center")) return;
+  if (!f.has(name) || !f.has("neck_center"))
+    return;
   const double outward = side == 0 ? 1 : -1, middle = f.at("neck_center").x(), s = f.s;
   const double hangs = std::clamp(
       (f.number("acromion.slope_no_more") - raised) / f.number("acromion.slope_fades"), 0.0, 1.0);
-  if (hangs <= 0) return;
+  if (hangs <= 0)
+    return;
   Landmark& landmark = f.body.landmarks[name];
   const auto by_slope =
       acromion_aside_by_slope(f, landmark.p.z(), middle, outward, raised, lean_of(f));
-  if (!by_slope) return;
+  if (!by_slope)
+    return;
   const double by_rule = outward * (landmark.p.x() - middle), off = *by_slope - by_rule;
   // where they are far apart a fold or a bump was taken for the turn: the slope counts the less
   const double apart = std::abs(off) / (SLOPE_UNSURE * s),
@@ -142,7 +153,8 @@ void weigh_acromion_by_slope(const Finder& f, int side, double raised) {
   const double same = AS_GOOD * s; // as near as either way can tell: the rule's place stands
   const double x = landmark.p.x() + outward * weight * (off - std::clamp(off, -same, same));
   const auto top = top_of_shoulder(f.levels.skin(), s, x, landmark.p.z());
-  if (!top) return;
+  if (!top)
+    return;
   f.also(name, Vec3(landmark.p));
   landmark.p = *top;
   char text[200];
@@ -151,7 +163,8 @@ void weigh_acromion_by_slope(const Finder& f, int side, double raised) {
                 name.c_str(), 1000 * std::abs(off), off > 0 ? "out" : "in");
   f.explain(text);
   landmark.confidence *= std::max(LEAST_TRUST, 1 - 0.5 * hangs * apart * apart);
-  if (hangs * std::abs(off) < SLOPE_TOLD * s) return;
+  if (hangs * std::abs(off) < SLOPE_TOLD * s)
+    return;
   std::snprintf(text, sizeof text,
                 "the slope of the shoulder lets expect it %.0f mm farther %s: look at it",
                 1000 * std::abs(off), off > 0 ? "out" : "in");

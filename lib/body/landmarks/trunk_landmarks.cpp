@@ -35,7 +35,8 @@ constexpr std::size_t LEAST_CURVE = 5;        // levels of a curve that can have
 /// The trunk's outline without arms that hang on it: clipped at the arm pits.
 std::optional<Level> measure_level(const Finder& f, double y) {
   const auto& loop = f.levels.trunk_at(y);
-  if (!loop) return std::nullopt;
+  if (!loop)
+    return std::nullopt;
   double limit[2] = {1e300, 1e300}; // x of the left and (negated) of the right arm pit
   for (int side = 0; side < 2; ++side)
     if (f.arms[side].axilla &&
@@ -48,12 +49,14 @@ std::optional<Level> measure_level(const Finder& f, double y) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const auto& segment : loop->segments) {
     const Vec2& q = segment[0];
-    if (q.x() > limit[0] || -q.x() > limit[1]) continue;
+    if (q.x() > limit[0] || -q.x() > limit[1])
+      continue;
     points.push_back(q);
     low = low.cwiseMin(q);
     high = high.cwiseMax(q);
   }
-  if (points.size() < 3) return std::nullopt;
+  if (points.size() < 3)
+    return std::nullopt;
   Level level;
   level.y = y;
   level.girth_m = closed_length(convex_hull(std::move(points)));
@@ -66,7 +69,8 @@ std::optional<Level> measure_level(const Finder& f, double y) {
 /// breadth of the trunk then.
 bool arm_hangs_on(const Finder& f, double y) {
   const auto& loop = f.levels.trunk_at(y);
-  if (!loop) return false;
+  if (!loop)
+    return false;
   for (const ArmTrace& arm : f.arms) {
     if (arm.sections.empty() ||
         (!arm.pit_hidden && arm.axilla && y > arm.axilla->y() - BELOW_PIT * f.s))
@@ -89,7 +93,8 @@ void put_level(const Finder& f, const std::string& name, double y, const std::st
 void find_level(const Finder& f, const std::string& name,
                 std::initializer_list<LandmarkRule<Level>> rules) {
   const auto chosen = f.choose<Level>(name, name, rules);
-  if (!chosen) return;
+  if (!chosen)
+    return;
   f.body.levels[name] = chosen->value;
   f.body.levels[name].rule = chosen->rule->name;
 }
@@ -116,7 +121,8 @@ Span chest_half(const Finder& f, int side) {
 /// Foremost skin of the trunk at (x, y).
 std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_width) {
   const auto m = midline(f.levels, y, x, half_width);
-  if (!m) return std::nullopt;
+  if (!m)
+    return std::nullopt;
   return Vec3(x, y, m->front);
 }
 
@@ -124,9 +130,12 @@ std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_wi
 /// near the foremost skin of its side.
 bool is_nipple_pair(const Finder& f) {
   const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
-  if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump")) return false;
-  if (std::abs(l->p.y() - r->p.y()) >= f.number("bust.bumps_aslant") * f.s) return false;
-  if (std::abs(l->p.x() + r->p.x()) >= f.number("bust.bumps_off_middle") * f.s) return false;
+  if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump"))
+    return false;
+  if (std::abs(l->p.y() - r->p.y()) >= f.number("bust.bumps_aslant") * f.s)
+    return false;
+  if (std::abs(l->p.x() + r->p.x()) >= f.number("bust.bumps_off_middle") * f.s)
+    return false;
   const double near = f.number("bust.bump_near") * f.s;
   for (int side = 0; side < 2; ++side) {
     const Vec3& p = f.figure.nipple[side]->p;
@@ -181,14 +190,17 @@ void doubt_prominence(const Finder& f, int side, const Vec3& bust_point) {
   constexpr double AT_END = 0.004, DOUBT = 0.5; // of stature, of the confidence
   constexpr double FAR_APART = 0.02; // of stature: of 64 fresh bodies on one such place was wrong
   const std::string name = std::string("bust_prominent") + side_suffix(side);
-  if (!f.has(name)) return;
+  if (!f.has(name))
+    return;
   const Span heights{bust_point.y() - f.number("bust.prominent_below") * f.s,
                      bust_point.y() + f.number("bust.prominent_above") * f.s};
   Landmark& landmark = f.body.landmarks[name];
-  if (landmark.p.y() > heights.low + AT_END * f.s) return;
+  if (landmark.p.y() > heights.low + AT_END * f.s)
+    return;
   const auto inside = place_of(foremost_place(f, heights, chest_half(f, side), 1, PEAKED, f.s));
   const Vec3 other = inside ? *inside : bust_point;
-  if ((other - landmark.p).norm() < FAR_APART * f.s) return;
+  if ((other - landmark.p).norm() < FAR_APART * f.s)
+    return;
   f.also(name, other);
   landmark.confidence *= DOUBT;
   f.body.scan.findings.push_back(
@@ -207,7 +219,8 @@ void find_bust(const Finder& f, double pit) {
       "bust_point", "bust_point",
       {{"bump_of_chest",
         [&]() -> Found {
-          if (!is_nipple_pair(f)) return std::nullopt;
+          if (!is_nipple_pair(f))
+            return std::nullopt;
           BothSides both;
           for (int side = 0; side < 2; ++side) {
             const Vec3& p = f.figure.nipple[side]->p;
@@ -218,7 +231,8 @@ void find_bust(const Finder& f, double pit) {
        {"above_chest_muscle",
         [&]() -> Found { // the chest muscles' lower corners
           const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
-          if (!l || !r) return std::nullopt;
+          if (!l || !r)
+            return std::nullopt;
           const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
           const double off = std::abs(y - expected) / (f.number("bust.muscle_near_ratio") * s);
           const double aslant =
@@ -246,11 +260,13 @@ void find_bust(const Finder& f, double pit) {
                                   FRONT_HALF_WIDTH * s);
           return both;
         }}});
-  if (!points) return;
+  if (!points)
+    return;
   double sum = 0;
   int n = 0;
   for (int side = 0; side < 2; ++side) {
-    if (!points->value[side]) continue;
+    if (!points->value[side])
+      continue;
     const std::string suffix = side_suffix(side);
     const bool is_seen = points->rule->name == "bump_of_chest"; // what is seen is not corrected
     const std::optional<Vec3> point =
@@ -271,7 +287,8 @@ void find_bust(const Finder& f, double pit) {
     sum += point->y();
     ++n;
   }
-  if (n == 2) put_level(f, "bust", sum / 2, points->rule->name);
+  if (n == 2)
+    put_level(f, "bust", sum / 2, points->rule->name);
 }
 
 /// Height of the fold under the breast: below the bust point, where the front turns from falling
@@ -280,7 +297,8 @@ std::optional<double> breast_fold(const Finder& f, double bust_y, double expecte
   const double s = f.s, step = FOLD_STEP * s;
   const double begin = bust_y - f.number("underbust.fold_begin") * s;
   const double end = bust_y - f.number("underbust.fold_end") * s;
-  if (!f.has("bust_point_l") || !f.has("bust_point_r")) return std::nullopt;
+  if (!f.has("bust_point_l") || !f.has("bust_point_r"))
+    return std::nullopt;
   double sum = 0;
   int n = 0;
   for (const char* name : {"bust_point_l", "bust_point_r"}) {
@@ -290,7 +308,8 @@ std::optional<double> breast_fold(const Finder& f, double bust_y, double expecte
       const auto a = front_at(f, x, y + 2 * step, FOLD_HALF_WIDTH * s),
                  b = front_at(f, x, y, FOLD_HALF_WIDTH * s),
                  c = front_at(f, x, y - 2 * step, FOLD_HALF_WIDTH * s);
-      if (!a || !b || !c) continue;
+      if (!a || !b || !c)
+        continue;
       const double turn = (c->z() - b->z()) / (2 * step) - (b->z() - a->z()) / (2 * step);
       if (turn > sharpest) {
         sharpest = turn;
@@ -302,7 +321,8 @@ std::optional<double> breast_fold(const Finder& f, double bust_y, double expecte
       ++n;
     }
   }
-  if (n == 0) return std::nullopt;
+  if (n == 0)
+    return std::nullopt;
   return (sum + (2 - n) * expected) / 2;
 }
 
@@ -310,7 +330,8 @@ std::optional<double> breast_fold(const Finder& f, double bust_y, double expecte
 /// smaller of both sides.
 double prominence(const std::vector<double>& curve, std::size_t least) {
   double before = 0, after = 0;
-  for (std::size_t i = 0; i < least; ++i) before = std::max(before, curve[i] - curve[least]);
+  for (std::size_t i = 0; i < least; ++i)
+    before = std::max(before, curve[i] - curve[least]);
   for (std::size_t i = least + 1; i < curve.size(); ++i)
     after = std::max(after, curve[i] - curve[least]);
   return std::min(before, after);
@@ -325,12 +346,15 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
            "an arm touches the trunk: its least girth and breadth are not found", "waist"});
       return;
     }
-    if (const auto level = measure_level(f, y)) curve.push_back(*level);
+    if (const auto level = measure_level(f, y))
+      curve.push_back(*level);
   }
-  if (curve.size() < LEAST_CURVE) return;
+  if (curve.size() < LEAST_CURVE)
+    return;
   auto least_of = [&](const char* name, double Level::*measure) -> std::optional<Level> {
     std::vector<double> values;
-    for (const Level& level : curve) values.push_back(level.*measure);
+    for (const Level& level : curve)
+      values.push_back(level.*measure);
     const std::size_t least =
         static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
     const double rise = prominence(values, least);
@@ -338,7 +362,8 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
     std::snprintf(text, sizeof text, "%s: least %.3f m at y %.3f, %.1f mm below its surroundings",
                   name, values[least], curve[least].y, 1000 * rise);
     f.explain(text);
-    if (rise < f.number("waist.prominence")) return std::nullopt;
+    if (rise < f.number("waist.prominence"))
+      return std::nullopt;
     return curve[least];
   };
   find_level(f, "waist_girth_min",
@@ -357,7 +382,8 @@ std::optional<double> find_navel(const Finder& f) {
       "omphalion", "omphalion",
       {{"dimple",
         [&]() -> std::optional<Vec2> {
-          if (!dimple) return std::nullopt;
+          if (!dimple)
+            return std::nullopt;
           // by how deep it is and how near to the proportion it counts, so that nothing jumps: half
           // for the depth that the rule names
           const double deep = -dimple->height / f.number("omphalion.dimple"),
@@ -367,18 +393,21 @@ std::optional<double> find_navel(const Finder& f) {
                                               f.number("omphalion.dimple_range"),
                                           0.0, 1.0) *
                                std::clamp(3 * (1 - off), 0.0, 1.0);
-          if (share <= 0) return std::nullopt;
+          if (share <= 0)
+            return std::nullopt;
           const Vec2 seen(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
           return Vec2(share * seen + (1 - share) * Vec2(0, expected));
         }},
        {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
-  if (!place) return std::nullopt;
+  if (!place)
+    return std::nullopt;
   const double navel =
       place->value.y() + (place->rule->name == "dimple" ? 0.0 : f.correction("omphalion").y());
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
   if (const auto p = front_at(f, place->value.x(), navel, FRONT_HALF_WIDTH * s))
     f.put("omphalion", *p, 2, *place->rule);
-  if (const auto p = front_at(f, 0, expected, FRONT_HALF_WIDTH * s)) f.also("omphalion", *p);
+  if (const auto p = front_at(f, 0, expected, FRONT_HALF_WIDTH * s))
+    f.also("omphalion", *p);
   put_level(f, "omphalion", navel, place->rule->name);
   return navel;
 }
@@ -401,12 +430,14 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
           return by_ratio + weight * (above - by_ratio);
         }},
        {"trunk_ratio", [&] { return std::optional(by_ratio); }}});
-  if (!height) return by_ratio;
+  if (!height)
+    return by_ratio;
   const double waist =
       height->value + 0.5 * (f.correction("waist", "_l").y() + f.correction("waist", "_r").y());
   put_level(f, "waist_semantic", waist, height->rule->name);
   const auto& loop = f.levels.trunk_at(waist);
-  if (!loop) return waist;
+  if (!loop)
+    return waist;
   const double depth = f.has("hip_center")
                            ? f.at("hip_center").z() + f.number("waist.side_depth") * s
                            : loop->centroid.y();
@@ -419,8 +450,10 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
                  if (const auto piece =
                          clipped(seg, 1, depth - SIDE_HALF_DEPTH * s, depth + SIDE_HALF_DEPTH * s))
                    for (const Vec2& q : *piece)
-                     if (!outer || sign * q.x() > sign * outer->x()) outer = q;
-               if (!outer) return std::nullopt;
+                     if (!outer || sign * q.x() > sign * outer->x())
+                       outer = q;
+               if (!outer)
+                 return std::nullopt;
                return Vec3(outer->x(), waist, depth);
              }}});
   return waist;
@@ -436,7 +469,8 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   auto foremost = [&]() -> std::optional<Vec3> {
     belly = foremost_place(f, {crotch + f.number("abdomen.above_crotch") * s, waist},
                            {-half_belly, half_belly}, 1, f.number("abdomen.flat"), 0);
-    if (!belly) return std::nullopt;
+    if (!belly)
+      return std::nullopt;
     const double usual = f.number("abdomen.usual") * (waist - crotch),
                  near = 0.5 * (waist - crotch), reach = f.number("abdomen.usual_reach");
     if (const auto other =
@@ -494,7 +528,8 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
     put_level(f, "hip", hip, "buttock_back");
     f.find("hip_section_center", "", 2, {{"section_at_hip", [&]() -> std::optional<Vec3> {
                                             const auto& loop = f.levels.trunk_at(hip);
-                                            if (!loop) return std::nullopt;
+                                            if (!loop)
+                                              return std::nullopt;
                                             return Vec3(loop->centroid.x(), hip,
                                                         loop->centroid.y());
                                           }}});
@@ -504,7 +539,8 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
                  std::optional<Level> most;
                  for (double y = crotch + ABOVE_CROTCH_M; y < waist; y += LEVEL_STEP_M)
                    if (const auto level = arm_hangs_on(f, y) ? std::nullopt : measure_level(f, y))
-                     if (!most || level->girth_m > most->girth_m) most = level;
+                     if (!most || level->girth_m > most->girth_m)
+                       most = level;
                  return most;
                }}});
 }
@@ -513,7 +549,8 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
 
 void find_trunk_landmarks(const Finder& f) {
   const double s = f.s;
-  if (!f.has("crotch") || !f.has("neck_back")) return;
+  if (!f.has("crotch") || !f.has("neck_back"))
+    return;
   const double crotch = f.at("crotch").y();
   double pit = 0, fold = 0;
   int n_pit = 0, n_fold = 0;
@@ -529,7 +566,8 @@ void find_trunk_landmarks(const Finder& f) {
         ++n_fold;
       }
   }
-  if (n_pit) pit /= n_pit;
+  if (n_pit)
+    pit /= n_pit;
   find_level(f, "chest_axilla", {{"axilla_folds", [&] {
                                     return n_fold ? measure_level(f, fold / n_fold) : std::nullopt;
                                   }}});
@@ -549,7 +587,8 @@ void find_trunk_landmarks(const Finder& f) {
       continue;
     put_level(f, "crotch", y, "crotch");
   }
-  if (f.body.levels.count("crotch")) f.body.levels["crotch"].y = crotch;
+  if (f.body.levels.count("crotch"))
+    f.body.levels["crotch"].y = crotch;
   double under = waist + f.number("underbust.above_waist") * s;
   if (f.body.levels.count("bust")) {
     const double bust = f.body.levels["bust"].y,
@@ -559,7 +598,8 @@ void find_trunk_landmarks(const Finder& f) {
                          {{"fold_under_bust", [&] { return breast_fold(f, bust, expected); }},
                           {"below_bust", [&] { return std::optional(expected); }}});
     under = chosen ? chosen->value : expected;
-    if (chosen) put_level(f, "underbust", under, chosen->rule->name);
+    if (chosen)
+      put_level(f, "underbust", under, chosen->rule->name);
   }
   find_waist_minima(f, under - UNDERBUST_MARGIN_M,
                     0.5 * (navel.value_or(crotch + f.number("omphalion.of_trunk") *

@@ -24,7 +24,8 @@ constexpr double BIN = 0.01;        ///< along the centre line
 
 ArmRegion::ArmRegion(const ArmTrace& arm, const TriangleMesh& skin, double stature)
     : m_arm(arm), m_s(stature) {
-  if (arm.sections.empty()) return;
+  if (arm.sections.empty())
+    return;
   auto add = [&](const Vec3& p, double along, double girth) {
     m_points.push_back(p);
     m_along.push_back(along);
@@ -42,16 +43,19 @@ ArmRegion::ArmRegion(const ArmTrace& arm, const TriangleMesh& skin, double statu
                                1e300);
   auto bin_of = [&](double along) { return static_cast<std::size_t>(along / (BIN * m_s)); };
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
-    if (arm.from_tip[v] > 1e199) continue;
+    if (arm.from_tip[v] > 1e199)
+      continue;
     const Place place = nearest(skin.positions[v]);
-    if (!is_within(place)) continue;
+    if (!is_within(place))
+      continue;
     reached.push_back(static_cast<int>(v));
     places.push_back(place);
     double& least = shortest[bin_of(place.along)];
     least = std::min(least, arm.from_tip[v]);
   }
   for (std::size_t b = 1; b < shortest.size(); ++b) // a coarse mesh has no vertex in some of them
-    if (shortest[b] > 1e199) shortest[b] = shortest[b - 1] + BIN * m_s;
+    if (shortest[b] > 1e199)
+      shortest[b] = shortest[b - 1] + BIN * m_s;
   for (std::size_t i = 0; i < reached.size(); ++i)
     if (arm.from_tip[reached[i]] < shortest[bin_of(places[i].along)] + DETOUR * m_s ||
         places[i].along < HAND * m_s)
@@ -73,7 +77,8 @@ ArmRegion::Place ArmRegion::nearest(const Vec3& p) const {
 }
 
 bool ArmRegion::is_within(const Place& place) const {
-  if (place.along < HAND * m_s) return place.off < HAND_REACH * m_s;
+  if (place.along < HAND * m_s)
+    return place.off < HAND_REACH * m_s;
   if (place.along > m_arm.length() - SHOULDER * m_s)
     return place.off < SHOULDER_REACH * m_s + FREE_PLAY * m_s;
   return place.off < THICK * place.radius + FREE_PLAY * m_s;

@@ -48,7 +48,8 @@ std::vector<char> leg_vertices(const LevelStack& levels, const TriangleMesh& ski
   const Slice& slice = levels.at(seed);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     const Vec3& p = skin.positions[v];
-    if (std::abs(p.y() - slice.y) > 0.02 * s) continue;
+    if (std::abs(p.y() - slice.y) > 0.02 * s)
+      continue;
     for (int side = 0; side < 2; ++side)
       if (slice.leg[side] >= 0) {
         const Loop& loop = slice.loops[slice.leg[side]];
@@ -73,7 +74,8 @@ const Slice& free_level(const LevelStack& levels) {
     return slice.trunk < 0 ? 1e300 : slice.loops[slice.trunk].size().x();
   };
   for (double y = *levels.crotch() + 0.05 * s; y < 0.70 * s; y += levels.spacing())
-    if (const Slice& slice = levels.at(y); breadth(slice) < breadth(*narrowest)) narrowest = &slice;
+    if (const Slice& slice = levels.at(y); breadth(slice) < breadth(*narrowest))
+      narrowest = &slice;
   return breadth(*usual) > WITH_ARMS * breadth(*narrowest) ? *narrowest : *usual;
 }
 
@@ -89,7 +91,8 @@ std::optional<Vec3> ring_center(const TriangleMesh& skin, const std::vector<doub
       sum += skin.positions[v];
       ++n;
     }
-  if (n == 0) return std::nullopt;
+  if (n == 0)
+    return std::nullopt;
   return 0.5 * (sum / n + box.center());
 }
 
@@ -99,17 +102,20 @@ std::optional<Vec3> ring_center(const TriangleMesh& skin, const std::vector<doub
 int middle_finger(const TriangleMesh& skin, const std::vector<double>& reach,
                   const std::vector<double>& from_tip, int tip, double s) {
   const auto wrist = ring_center(skin, from_tip, 0.11 * s, 0.13 * s);
-  if (!wrist || (skin.positions[tip] - *wrist).norm() < STRETCHED * s) return tip;
+  if (!wrist || (skin.positions[tip] - *wrist).norm() < STRETCHED * s)
+    return tip;
   auto length = [&](int v) {
     return reach[v] + (skin.positions[v] - *wrist).norm();
   }; // over the skin and straight, for each alone may be a tie
   int best = tip;
-  for (int v = 0; v < static_cast<int>(reach.size()); ++v) {
+  for (int v = 0; v < std::ssize(reach); ++v) {
     if (from_tip[v] < FINGER_END * s || from_tip[v] > OTHER_FINGER * s || reach[v] > 1e199 ||
         reach[v] < reach[tip] - AS_FAR * s)
       continue;
-    if (from_tip[v] < ROUND_CLEFT * (skin.positions[v] - skin.positions[tip]).norm()) continue;
-    if (length(v) > length(best)) best = v;
+    if (from_tip[v] < ROUND_CLEFT * (skin.positions[v] - skin.positions[tip]).norm())
+      continue;
+    if (length(v) > length(best))
+      best = v;
   }
   return best;
 }
@@ -119,7 +125,8 @@ int middle_finger(const TriangleMesh& skin, const std::vector<double>& reach,
 void reach_for_fingers(ArmTrace& arm, const Vec3& wrist, const std::vector<Vec3>& scan_points,
                        double s) {
   const double length = (arm.tip - wrist).norm();
-  if (scan_points.empty() || length < 1e-6) return;
+  if (scan_points.empty() || length < 1e-6)
+    return;
   const Vec3 axis = (arm.tip - wrist) / length;
   std::vector<std::pair<double, int>> far;
   for (std::size_t i = 0; i < scan_points.size(); ++i) {
@@ -129,20 +136,23 @@ void reach_for_fingers(ArmTrace& arm, const Vec3& wrist, const std::vector<Vec3>
       continue;
     far.emplace_back(d.norm(), static_cast<int>(i));
   }
-  if (far.size() < 3) return;
+  if (far.size() < 3)
+    return;
   std::partial_sort(far.begin(), far.begin() + 3, far.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first > b.first : a.second < b.second;
   });
   const Vec3 tip =
       (scan_points[far[0].second] + scan_points[far[1].second] + scan_points[far[2].second]) / 3;
-  if ((tip - wrist).norm() > length) arm.tip = tip;
+  if ((tip - wrist).norm() > length)
+    arm.tip = tip;
 }
 
 void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& reach,
             const std::vector<double>& from_tip, const std::vector<Vec3>& scan_points, double s) {
   const auto start = ring_center(skin, from_tip, (HAND_SKIP - 0.008) * s, (HAND_SKIP + 0.008) * s);
   const auto ahead = ring_center(skin, from_tip, 0.11 * s, 0.13 * s);
-  if (!start || !ahead) return;
+  if (!start || !ahead)
+    return;
   // of the finger ends, the one farthest along the hand: over the skin a broad hand's corners are
   // as far
   const Vec3 distal = (*start - *ahead).normalized();
@@ -150,7 +160,8 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
   double farthest = 0;
   for (const int t : arm.triangles)
     for (const int v : skin.triangles[t])
-      if (from_tip[v] == 0) farthest = reach[v];
+      if (from_tip[v] == 0)
+        farthest = reach[v];
   for (const int t : arm.triangles)
     for (const int v : skin.triangles[t])
       if (from_tip[v] < FINGER_END * s && reach[v] > farthest - AS_FAR * s &&
@@ -163,13 +174,15 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
   for (const int t : arm.triangles)
     for (const int v : skin.triangles[t]) {
       const double less = distal.dot(tip - skin.positions[v]);
-      if (less > BLUNT || from_tip[v] > 2 * FINGER_END * s) continue;
+      if (less > BLUNT || from_tip[v] > 2 * FINGER_END * s)
+        continue;
       is_fist |= less < -4 * BLUNT;
       sum += (BLUNT - less) * skin.positions[v];
       weight += BLUNT - less;
     }
   arm.tip = tip;
-  if (!is_fist && weight > 0) arm.tip = sum / weight + distal.dot(tip - sum / weight) * distal;
+  if (!is_fist && weight > 0)
+    arm.tip = sum / weight + distal.dot(tip - sum / weight) * distal;
   reach_for_fingers(arm, *ahead, scan_points, s);
   Vec3 center = *start, axis = (*ahead - *start).normalized();
   double along = (center - arm.tip).norm();
@@ -182,22 +195,26 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
     int best = -1;
     double nearest = 0.06 * s;
     for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (loops[i].area <= 0) continue;
+      if (loops[i].area <= 0)
+        continue;
       const double d = encloses(loops[i], Vec2::Zero()) ? 0 : loops[i].centroid.norm();
       if (d < nearest) {
         nearest = d;
         best = static_cast<int>(i);
       }
     }
-    if (best < 0) break;
+    if (best < 0)
+      break;
     section.loop = std::move(loops[best]);
     section.girth = taut_girth(section.loop);
     section.center = section.plane.point(section.loop.centroid);
-    if (section.girth > MAX_ARM_GIRTH * s || !section.loop.closed) break;
+    if (section.girth > MAX_ARM_GIRTH * s || !section.loop.closed)
+      break;
     const std::size_t n = arm.sections.size();
     if (n > 24) { // the girth of the last few centimetres
       double usual = 0;
-      for (std::size_t k = n - 8; k < n - 2; ++k) usual += arm.sections[k].girth / 6;
+      for (std::size_t k = n - 8; k < n - 2; ++k)
+        usual += arm.sections[k].girth / 6;
       if (section.girth > std::max(JUMP * usual, usual + LEAST_JUMP * s) ||
           section.girth < 0.6 * usual)
         break;
@@ -211,7 +228,8 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
     arm.sections.push_back(std::move(section));
     if (n >= 8) {
       const Vec3 chord = arm.sections.back().center - arm.sections[n - 8].center;
-      if (chord.norm() > 1e-6) axis = (0.5 * axis + 0.5 * chord.normalized()).normalized();
+      if (chord.norm() > 1e-6)
+        axis = (0.5 * axis + 0.5 * chord.normalized()).normalized();
     }
     center = arm.sections.back().center + TRACE_STEP * s * axis;
   }
@@ -224,7 +242,8 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
 } // namespace
 
 Vec3 ArmTrace::at(double along) const {
-  if (sections.empty()) return tip;
+  if (sections.empty())
+    return tip;
   if (along <= sections.front().along)
     return sections.front().center + (along - sections.front().along) * sections.front().axis;
   if (along >= sections.back().along) {
@@ -245,12 +264,14 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
                                    const std::vector<Vec3>& scan_points, const Rules& rules) {
   std::array<ArmTrace, 2> arms;
   arms[1].left = false;
-  if (!levels.crotch()) return arms;
+  if (!levels.crotch())
+    return arms;
   const TriangleMesh& skin = levels.skin();
   const double s = levels.stature();
   const std::vector<char> legs = leg_vertices(levels, skin);
   const Slice& seed = free_level(levels);
-  if (seed.trunk < 0) return arms;
+  if (seed.trunk < 0)
+    return arms;
   const Loop& trunk = seed.loops[seed.trunk];
   auto is_in = [](const Loop& loop, const Vec3& p, double margin) {
     return p.x() > loop.low.x() - margin && p.x() < loop.high.x() + margin &&
@@ -277,9 +298,11 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
       if (reach[v] > 1e199 || (p.x() > 0) != arm.left || p.y() > 0.93 * s ||
           std::abs(p.x()) < 0.06 * s)
         continue;
-      if (tip < 0 || reach[v] > reach[tip]) tip = static_cast<int>(v);
+      if (tip < 0 || reach[v] > reach[tip])
+        tip = static_cast<int>(v);
     }
-    if (tip < 0 || reach[tip] < MIN_REACH * s) continue;
+    if (tip < 0 || reach[tip] < MIN_REACH * s)
+      continue;
     arm.tip = skin.positions[tip];
     std::vector<double> from_tip = graph.distances({tip}, ARM_REACH * s, legs);
     if (const int other = middle_finger(skin, reach, from_tip, tip, s); other != tip) {
@@ -299,7 +322,8 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
     const double end = arm.length();
     arm.out = (arm.at(end - 0.12 * s) - arm.at(end)).normalized();
     find_axilla(arm, levels, rules);
-    if (!arm.pit_hidden) find_merge(arm, levels);
+    if (!arm.pit_hidden)
+      find_merge(arm, levels);
     arm.from_tip = std::move(from_tip);
   }
   compare_pits(arms, rules, s);

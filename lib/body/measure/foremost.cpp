@@ -17,26 +17,32 @@ std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double 
   const double across_flat = ACROSS_FLAT * f.s;
   for (double y = heights.low; y <= heights.high; y += LEVEL_STEP * f.s) {
     const auto& loop = f.levels.trunk_at(y);
-    if (!loop) continue;
+    if (!loop)
+      continue;
     std::optional<Vec3> outer;
     for (const auto& segment : loop->segments) {
       const Vec2& q = segment[0];
-      if (q.x() < across.low || q.x() > across.high) continue;
-      if (!outer || sign * q.y() > sign * outer->z()) outer = Vec3(q.x(), y, q.y());
+      if (q.x() < across.low || q.x() > across.high)
+        continue;
+      if (!outer || sign * q.y() > sign * outer->z())
+        outer = Vec3(q.x(), y, q.y());
     }
-    if (!outer) continue;
+    if (!outer)
+      continue;
     double sum = 0, weight = 0;
     for (const auto& segment : loop->segments)
       for (const double t :
            {0.1, 0.3, 0.5, 0.7, 0.9}) { // a segment is longer than the flat part may be
         const Vec2 q = (1 - t) * segment[0] + t * segment[1];
         const double less = sign * (outer->z() - q.y());
-        if (q.x() < across.low || q.x() > across.high || less > across_flat) continue;
+        if (q.x() < across.low || q.x() > across.high || less > across_flat)
+          continue;
         const double w = (across_flat - less) * (segment[1] - segment[0]).norm();
         sum += w * q.x();
         weight += w;
       }
-    if (weight > 0) outer->x() = sum / weight;
+    if (weight > 0)
+      outer->x() = sum / weight;
     outline.push_back(*outer);
   }
   return outline;
@@ -54,7 +60,8 @@ public:
     Foremost place{at(top), 0, at(top).y(), at(top).y()};
     for (std::ptrdiff_t k = first; k <= last; ++k) {
       const double share = 1 - out_less(top, k) / m_flat;
-      if (share <= 0) continue;
+      if (share <= 0)
+        continue;
       const double w = share * share, y = at(k).y();
       sum += w * Vec2(at(k).x(), y);
       squares += w * y * y;
@@ -109,8 +116,10 @@ public:
       return k >= 0 && k < size() && out_less(top, k) >= 0 && out_less(top, k) < m_flat;
     };
     std::ptrdiff_t first = top, last = top;
-    while (as_far(first - 1)) --first;
-    while (as_far(last + 1)) ++last;
+    while (as_far(first - 1))
+      --first;
+    while (as_far(last + 1))
+      ++last;
     return {first, last};
   }
 
@@ -125,7 +134,7 @@ public:
     return m_sign * (at(top).z() - at(k).z());
   }
   std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(m_points.size()); }
-  const Vec3& at(std::ptrdiff_t k) const { return m_points[static_cast<std::size_t>(k)]; }
+  const Vec3& at(std::ptrdiff_t k) const { return m_points[k]; }
 
 private:
   const std::vector<Vec3>& m_points;
@@ -137,7 +146,8 @@ private:
 std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span across, double sign,
                                        double flat, double inside) {
   const std::vector<Vec3> points = outline_of(finder, heights, across, sign);
-  if (points.empty()) return std::nullopt;
+  if (points.empty())
+    return std::nullopt;
   const double as_far = flat * finder.s;
   const Outline outline(points, sign, as_far);
   const std::ptrdiff_t n = outline.size(), most = outline.farthest(0, n);
@@ -149,13 +159,17 @@ std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span 
     return place;
   }
   const Foremost at_the_end{outline.at(most), 0, outline.at(most).y(), outline.at(most).y()};
-  if (n < 4 * MARGIN) return at_the_end;
+  if (n < 4 * MARGIN)
+    return at_the_end;
   std::ptrdiff_t inner = outline.inner_top();
   const bool is_bulge =
       inner < 0; // of a bulge on a slope no level need be farther out than both its neighbours
-  if (is_bulge) inner = outline.bulge_top();
-  if (inner < 0 || outline.out_less(most, inner) >= inside * finder.s) return at_the_end;
-  if (is_bulge) return outline.middle(inner, inner, inner);
+  if (is_bulge)
+    inner = outline.bulge_top();
+  if (inner < 0 || outline.out_less(most, inner) >= inside * finder.s)
+    return at_the_end;
+  if (is_bulge)
+    return outline.middle(inner, inner, inner);
   const auto [first, last] = outline.as_far_without_a_gap(
       inner); // where the skin runs out again, the place's own surroundings end
   return outline.middle(inner, first, last);

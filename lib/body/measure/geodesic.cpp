@@ -14,7 +14,8 @@ EdgeGraph::EdgeGraph(const TriangleMesh& mesh)
       ++m_first[t[k] + 1];
       ++m_first[t[(k + 1) % 3] + 1];
     }
-  for (std::size_t v = 1; v < m_first.size(); ++v) m_first[v] += m_first[v - 1];
+  for (std::size_t v = 1; v < m_first.size(); ++v)
+    m_first[v] += m_first[v - 1];
   m_neighbour.resize(static_cast<std::size_t>(m_first.back()));
   std::vector<int> at(m_first.begin(), m_first.end() - 1);
   for (const Triangle& t : mesh.triangles)
@@ -37,10 +38,12 @@ std::vector<double> EdgeGraph::distances(const std::vector<int>& sources, double
   while (!queue.empty()) {
     const auto [d, v] = queue.top();
     queue.pop();
-    if (d > distance[v]) continue;
+    if (d > distance[v])
+      continue;
     for (int i = m_first[v]; i < m_first[v + 1]; ++i) {
       const int w = m_neighbour[i];
-      if (distance[w] <= d || (!blocked.empty() && blocked[w])) continue;
+      if (distance[w] <= d || (!blocked.empty() && blocked[w]))
+        continue;
       const double next = d + (m_mesh->positions[w] - m_mesh->positions[v]).norm();
       if (next < distance[w] && next <= limit) {
         distance[w] = next;

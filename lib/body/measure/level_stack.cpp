@@ -35,7 +35,8 @@ int best_overlap(const std::vector<Loop>& loops, const Loop& from) {
   int best = -1;
   double most = 0;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (loops[i].area <= 0) continue;
+    if (loops[i].area <= 0)
+      continue;
     const double o = overlap(loops[i], from);
     if (o > most) {
       most = o;
@@ -51,7 +52,8 @@ Loop half_of(const Loop& loop, double middle, double sign) {
   std::vector<double> crossings;
   for (const auto& segment : loop.segments) {
     const double a = sign * (segment[0].x() - middle), b = sign * (segment[1].x() - middle);
-    if (a < 0 && b < 0) continue;
+    if (a < 0 && b < 0)
+      continue;
     std::array<Vec2, 2> kept = segment;
     if ((a < 0) != (b < 0)) {
       const Vec2 p = segment[0] + a / (a - b) * (segment[1] - segment[0]);
@@ -64,15 +66,19 @@ Loop half_of(const Loop& loop, double middle, double sign) {
   for (std::size_t k = 0; k + 1 < crossings.size();
        k += 2) { // the body is on the left: the cut runs along the line
     const Vec2 p(middle, crossings[k]), q(middle, crossings[k + 1]);
-    if (sign > 0) half.segments.push_back({q, p});
-    else half.segments.push_back({p, q});
+    if (sign > 0)
+      half.segments.push_back({q, p});
+    else
+      half.segments.push_back({p, q});
   }
   measure_loop(half);
   return half;
 }
 
 /// Walking along an outline has the body on the left.
-bool faces_down(const std::array<Vec2, 2>& piece) { return piece[1].x() > piece[0].x(); }
+bool faces_down(const std::array<Vec2, 2>& piece) {
+  return piece[1].x() > piece[0].x();
+}
 
 /// Whether another piece of an outline that faces down lies above the middle of this one.
 bool is_below_another(const std::array<Vec2, 2>& piece,
@@ -81,7 +87,8 @@ bool is_below_another(const std::array<Vec2, 2>& piece,
   const Vec2 q = 0.5 * (piece[0] + piece[1]);
   return std::any_of(pieces.begin(), pieces.end(), [&](const std::array<Vec2, 2>& other) {
     const auto& [a, b] = other;
-    if (!faces_down(other) || q.x() <= a.x() || q.x() >= b.x()) return false;
+    if (!faces_down(other) || q.x() <= a.x() || q.x() >= b.x())
+      return false;
     return a.y() + (q.x() - a.x()) / (b.x() - a.x()) * (b.y() - a.y()) > q.y() + CLEAR;
   });
 }
@@ -107,7 +114,7 @@ LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing,
     : m_skin(&skin), m_stature(stature), m_spacing(spacing), m_roughness(roughness),
       m_slices(static_cast<std::size_t>(stature * 1.02 / spacing) + 2),
       m_levelled(skin, 0.5 * spacing, spacing, static_cast<int>(m_slices.size())) {
-  for (int k = 0; k < static_cast<int>(m_slices.size()); ++k) {
+  for (int k = 0; k < std::ssize(m_slices); ++k) {
     m_slices[k].y = (k + 0.5) * spacing;
     m_slices[k].loops = m_levelled.cut(k, m_slices[k].y);
   }
@@ -119,34 +126,44 @@ int LevelStack::index(double y) const {
   return std::clamp(static_cast<int>(std::floor(y / m_spacing)), 0,
                     static_cast<int>(m_slices.size()) - 1);
 }
-const Slice& LevelStack::at(double y) const { return m_slices[static_cast<std::size_t>(index(y))]; }
+const Slice& LevelStack::at(double y) const {
+  return m_slices[static_cast<std::size_t>(index(y))];
+}
 
-std::vector<Loop> LevelStack::exact(double y) const { return m_levelled.cut(index(y), y); }
+std::vector<Loop> LevelStack::exact(double y) const {
+  return m_levelled.cut(index(y), y);
+}
 
 const std::optional<Loop>& LevelStack::trunk_at(double y) const {
   static const std::optional<Loop> none;
   const Slice& slice = at(y);
-  if (slice.trunk < 0) return none;
+  if (slice.trunk < 0)
+    return none;
   const auto known = m_trunk_at.find(y);
-  if (known != m_trunk_at.end()) return known->second;
+  if (known != m_trunk_at.end())
+    return known->second;
   std::vector<Loop> loops = exact(y);
   const int i = trunk_of(loops, slice.loops[slice.trunk]);
   std::optional<Loop> trunk;
-  if (i >= 0) trunk = std::move(loops[i]);
+  if (i >= 0)
+    trunk = std::move(loops[i]);
   return m_trunk_at.emplace(y, std::move(trunk)).first->second;
 }
 
 std::optional<Loop> LevelStack::leg_at(double y, int side) const {
   const Slice& slice = at(y);
   if (slice.leg[side] < 0) { // thighs that touch are one loop
-    if (!m_crotch || y > *m_crotch) return std::nullopt;
+    if (!m_crotch || y > *m_crotch)
+      return std::nullopt;
     const auto& both = trunk_at(y);
-    if (!both) return std::nullopt;
+    if (!both)
+      return std::nullopt;
     return half_of(*both, m_crotch_point.x(), side == 0 ? 1 : -1);
   }
   std::vector<Loop> loops = exact(y);
   const int i = best_overlap(loops, slice.loops[slice.leg[side]]);
-  if (i < 0) return std::nullopt;
+  if (i < 0)
+    return std::nullopt;
   return loops[i];
 }
 
@@ -162,14 +179,17 @@ void LevelStack::follow_legs() {
           std::abs(loop.centroid.x()) > 0.25 * m_stature)
         continue;
       const int side = loop.centroid.x() > 0 ? 0 : 1;
-      if (pick[side] < 0) pick[side] = static_cast<int>(i); // loops come largest first
+      if (pick[side] < 0)
+        pick[side] = static_cast<int>(i); // loops come largest first
     }
-    if (pick[0] < 0 || pick[1] < 0) continue;
+    if (pick[0] < 0 || pick[1] < 0)
+      continue;
     slice.leg[0] = pick[0];
     slice.leg[1] = pick[1];
     start = k;
   }
-  if (start < 0) return;
+  if (start < 0)
+    return;
   for (int k = start - 1; k >= 0; --k)
     for (int side = 0; side < 2; ++side) {
       const int from = m_slices[k + 1].leg[side];
@@ -183,13 +203,16 @@ void LevelStack::follow_legs() {
       m_slices[k].leg[side] =
           best_overlap(m_slices[k].loops, m_slices[k - 1].loops[m_slices[k - 1].leg[side]]);
     const bool merged = m_slices[k].leg[0] == m_slices[k].leg[1];
-    if (m_slices[k].leg[0] < 0 || m_slices[k].leg[1] < 0) return;
-    if (!merged) continue;
+    if (m_slices[k].leg[0] < 0 || m_slices[k].leg[1] < 0)
+      return;
+    if (!merged)
+      continue;
     m_slices[k].trunk = m_slices[k].leg[0];
     m_slices[k].leg[0] = m_slices[k].leg[1] = -1;
     break;
   }
-  if (k > last) return;
+  if (k > last)
+    return;
   // bisect between the last level with two legs and the first with one
   double low = m_slices[k - 1].y, high = m_slices[k].y;
   Loop left = m_slices[k - 1].loops[m_slices[k - 1].leg[0]],
@@ -198,7 +221,8 @@ void LevelStack::follow_legs() {
     const double y = 0.5 * (low + high);
     std::vector<Loop> loops = exact(y);
     const int a = best_overlap(loops, left), b = best_overlap(loops, right);
-    if (a < 0 || b < 0 || a == b) high = y;
+    if (a < 0 || b < 0 || a == b)
+      high = y;
     else {
       low = y;
       left = loops[a];
@@ -213,16 +237,19 @@ void LevelStack::follow_legs() {
   std::vector<Loop> merged = exact(high);
   const int i = best_overlap(merged, left);
   m_crotch_point = Vec2(middle, 0.5 * (left.centroid.y() + right.centroid.y()));
-  if (i < 0) return;
+  if (i < 0)
+    return;
   double low_z = 1e300, high_z = -1e300;
   for (const auto& segment : merged[i].segments) {
     const double da = segment[0].x() - middle, db = segment[1].x() - middle;
-    if ((da >= 0) == (db >= 0)) continue;
+    if ((da >= 0) == (db >= 0))
+      continue;
     const double z = segment[0].y() + da / (da - db) * (segment[1].y() - segment[0].y());
     low_z = std::min(low_z, z);
     high_z = std::max(high_z, z);
   }
-  if (low_z <= high_z) m_crotch_point.y() = 0.5 * (low_z + high_z);
+  if (low_z <= high_z)
+    m_crotch_point.y() = 0.5 * (low_z + high_z);
   // the skin between the legs may hang a little below the saddle: its lowest point in the middle
   // plane is the crotch
   settle_crotch(low, high, middle, 0.5 * (left.centroid.y() + right.centroid.y()));
@@ -246,12 +273,14 @@ LevelStack::Underside LevelStack::underside(double plane, double low, double hig
         outline.push_back(*piece);
       if (const auto piece = clipped(segment, 1, deepest, high + LEVEL + m_roughness + favour)) {
         const double middle_z = 0.5 * ((*piece)[0].x() + (*piece)[1].x());
-        if (std::abs(middle_z - between) <= CROTCH_REACH * m_stature) pieces.push_back(*piece);
+        if (std::abs(middle_z - between) <= CROTCH_REACH * m_stature)
+          pieces.push_back(*piece);
       }
     }
   }
   for (const auto& piece : pieces) {
-    if (is_below_another(piece, outline)) continue; // a thigh that reaches into the other
+    if (is_below_another(piece, outline))
+      continue; // a thigh that reaches into the other
     under.bottom.push_back(piece);
     for (const Vec2& q : piece) {
       under.lowest = std::min(under.lowest, q.y());
@@ -285,7 +314,8 @@ void LevelStack::settle_crotch(double low, double high, double middle, double be
   if (under.lowest < low - GRAZED * m_stature)
     for (const double aside : {-2.0, -1.0, 1.0, 2.0}) {
       Underside beside = underside(middle + aside * ASIDE * m_stature, low, high, between, near);
-      if (beside.lowest > under.lowest + GRAZED * m_stature) under = std::move(beside);
+      if (beside.lowest > under.lowest + GRAZED * m_stature)
+        under = std::move(beside);
     }
   m_crotch = std::min(low, under.lowest);
   m_crotch_point = Vec2(under.plane, under.z);
@@ -306,18 +336,21 @@ void LevelStack::settle_crotch(double low, double high, double middle, double be
         m_other_crotch = Vec3(under.plane, q.y(), q.x());
       }
     }
-  if (weight > 0) m_crotch_point.y() = sum / weight;
+  if (weight > 0)
+    m_crotch_point.y() = sum / weight;
 }
 
 void LevelStack::follow_trunk() {
-  if (!m_crotch) return;
+  if (!m_crotch)
+    return;
   int k = index(*m_crotch);
-  while (k < static_cast<int>(m_slices.size()) && m_slices[k].trunk < 0 &&
+  while (k < std::ssize(m_slices) && m_slices[k].trunk < 0 &&
          m_slices[k].y < *m_crotch + 0.05 * m_stature)
     ++k;
-  for (++k; k < static_cast<int>(m_slices.size()); ++k) {
+  for (++k; k < std::ssize(m_slices); ++k) {
     const int from = m_slices[k - 1].trunk;
-    if (from < 0) return;
+    if (from < 0)
+      return;
     m_slices[k].trunk = trunk_of(m_slices[k].loops, m_slices[k - 1].loops[from]);
   }
 }

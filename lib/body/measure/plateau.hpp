@@ -17,7 +17,8 @@ struct Lowest {
 inline Lowest lowest_of(const std::vector<Vec2>& curve, double flat) {
   std::size_t least = 0;
   for (std::size_t k = 1; k < curve.size(); ++k)
-    if (curve[k].y() < curve[least].y()) least = k;
+    if (curve[k].y() < curve[least].y())
+      least = k;
   double sum = 0, weight = 0;
   auto add = [&](std::size_t k) {
     const double w = curve[least].y() + flat - curve[k].y();

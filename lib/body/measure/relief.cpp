@@ -14,7 +14,8 @@ std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
     if ((p - box.low + 4 * margin).minCoeff() < 0 || (box.high + 4 * margin - p).minCoeff() < 0)
       continue;
     const double third = area_normal(p, skin.positions[t[1]], skin.positions[t[2]]).norm();
-    for (const int v : t) of_vertex[v] += third;
+    for (const int v : t)
+      of_vertex[v] += third;
   }
   std::vector<Vec3> points, normal;
   std::vector<double> area;
@@ -27,32 +28,37 @@ std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
     normal.push_back(normals[v]);
     area.push_back(of_vertex[v]);
   }
-  if (points.empty()) return std::nullopt;
+  if (points.empty())
+    return std::nullopt;
   const PointGrid grid(points, radius);
   std::vector<double> height(points.size(), -1e300);
   double most = -1e300;
   std::size_t best = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3& p = points[i];
-    if ((p - box.low).minCoeff() < 0 || (box.high - p).minCoeff() < 0) continue;
+    if ((p - box.low).minCoeff() < 0 || (box.high - p).minCoeff() < 0)
+      continue;
     double ring = 0, weight = 0;
     int n = 0, quadrants = 0;
     grid.within(p, radius, [&](int j, double d) {
-      if (d < 0.3 * radius * radius) return;
+      if (d < 0.3 * radius * radius)
+        return;
       const Vec3 off = points[j] - p;
       ring += area[j] * off.dot(normal[i]);
       weight += area[j];
       quadrants |= 1 << ((off.x() > 0 ? 1 : 0) + (off.y() > 0 ? 2 : 0));
       ++n;
     });
-    if (n < 4 || quadrants != 15 || weight <= 0) continue; // not surrounded: at an edge
+    if (n < 4 || quadrants != 15 || weight <= 0)
+      continue; // not surrounded: at an edge
     height[i] = -sign * ring / weight;
     if (height[i] > most) {
       most = height[i];
       best = i;
     }
   }
-  if (most < -1e299) return std::nullopt;
+  if (most < -1e299)
+    return std::nullopt;
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (std::size_t i = 0; i < points.size(); ++i)

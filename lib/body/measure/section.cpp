@@ -30,12 +30,14 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
     bool shared;
   };
   std::size_t size = 16;
-  while (size < 3 * cuts.size()) size *= 2;
+  while (size < 3 * cuts.size())
+    size *= 2;
   std::vector<End> table(size,
                          {0, -1, false}); // at most two thirds full; nothing depends on its order
   auto join = [&](std::uint64_t key, int i) {
     std::size_t at = (key * 0x9E3779B97F4A7C15u >> 32) & (size - 1);
-    while (table[at].first >= 0 && table[at].key != key) at = (at + 1) & (size - 1);
+    while (table[at].first >= 0 && table[at].key != key)
+      at = (at + 1) & (size - 1);
     End& end = table[at];
     if (end.first < 0) {
       end = {key, i, false};
@@ -52,7 +54,8 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
   const int count = number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end());
   is_open.assign(static_cast<std::size_t>(count), 0);
   for (const End& end : table) // an end that no other segment shares
-    if (end.first >= 0 && !end.shared) is_open[number[end.first]] = 1;
+    if (end.first >= 0 && !end.shared)
+      is_open[number[end.first]] = 1;
   return number;
 }
 
@@ -64,7 +67,8 @@ void cut_triangle(const Triangle& t, const std::array<const Vec3*, 3>& p, const 
                            2, 1, 0, 0}; // the corner alone on its side, by the bits of those above
   const double d[3] = {n.dot(*p[0]) - offset, n.dot(*p[1]) - offset, n.dot(*p[2]) - offset};
   const int above = (d[0] >= 0) | (d[1] >= 0) << 1 | (d[2] >= 0) << 2;
-  if (above == 0 || above == 7) return;
+  if (above == 0 || above == 7)
+    return;
   const int lone = LONE[above], two_above = above != 1 << lone;
   auto crossing = [&](int k) {
     const int swapped = t[lone] > t[k]; // the same bits from both triangles of an edge
@@ -79,17 +83,22 @@ void cut_triangle(const Triangle& t, const std::array<const Vec3*, 3>& p, const 
 
 /// The segments as loops, the one with the largest |area| first.
 std::vector<Loop> joined(const std::vector<Cut>& cuts) {
-  if (cuts.empty()) return {};
+  if (cuts.empty())
+    return {};
   std::vector<char> is_open;
   const std::vector<int> number = loop_numbers(cuts, is_open);
   std::vector<Loop> loops(is_open.size());
-  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].closed = !is_open[k];
+  for (std::size_t k = 0; k < loops.size(); ++k)
+    loops[k].closed = !is_open[k];
   std::vector<std::size_t> sizes(loops.size(), 0);
-  for (const int loop : number) ++sizes[loop];
-  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].segments.reserve(sizes[k]);
+  for (const int loop : number)
+    ++sizes[loop];
+  for (std::size_t k = 0; k < loops.size(); ++k)
+    loops[k].segments.reserve(sizes[k]);
   for (std::size_t i = 0; i < cuts.size(); ++i)
     loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
-  for (Loop& loop : loops) measure_loop(loop);
+  for (Loop& loop : loops)
+    measure_loop(loop);
   std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });
   std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) {
     return std::abs(a.area) > std::abs(b.area);
@@ -100,7 +109,8 @@ std::vector<Loop> joined(const std::vector<Cut>& cuts) {
 } // namespace
 
 void measure_loop(Loop& loop) {
-  if (loop.segments.empty()) return;
+  if (loop.segments.empty())
+    return;
   const Vec2 o = loop.segments.front()[0];
   Vec2 moment = Vec2::Zero();
   double twice = 0;
@@ -126,7 +136,8 @@ Plane level_plane(double height) {
 Plane cross_plane(const Vec3& origin, const Vec3& axis) {
   const Vec3 n = axis.normalized();
   Vec3 u = Vec3::UnitY().cross(n);
-  if (u.norm() < 1e-3) u = Vec3::UnitX() - n.x() * n;
+  if (u.norm() < 1e-3)
+    u = Vec3::UnitX() - n.x() * n;
   u.normalize();
   return {origin, u, n.cross(u)};
 }
@@ -163,7 +174,8 @@ const std::vector<int>& TriangleSpheres::near(const Plane& plane) {
   const double offset = n.dot(plane.origin);
   m_near.clear();
   for (const Sphere& s : m_spheres)
-    if (std::abs(n.dot(s.center) - offset) <= s.radius) m_near.push_back(s.triangle);
+    if (std::abs(n.dot(s.center) - offset) <= s.radius)
+      m_near.push_back(s.triangle);
   return m_near;
 }
 
@@ -174,7 +186,8 @@ LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int c
     return std::clamp(static_cast<int>(std::floor((y - y0) / dy)), 0, count - 1);
   };
   std::vector<std::size_t> first(static_cast<std::size_t>(count) + 1, 0);
-  for (const Vec3& p : mesh.positions) ++first[static_cast<std::size_t>(band_of(p.y())) + 1];
+  for (const Vec3& p : mesh.positions)
+    ++first[static_cast<std::size_t>(band_of(p.y())) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   m_vertices.resize(mesh.positions.size());
   std::vector<int> place(mesh.positions.size());
@@ -192,7 +205,8 @@ LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int c
     const Reach reach{static_cast<float>(low) - OUTWARDS,
                       static_cast<float>(high) + OUTWARDS,
                       {place[t[0]], place[t[1]], place[t[2]]}};
-    for (int k = from; k <= to; ++k) m_bands[static_cast<std::size_t>(k)].push_back(reach);
+    for (int k = from; k <= to; ++k)
+      m_bands[k].push_back(reach);
   }
 }
 
@@ -203,8 +217,9 @@ std::vector<Loop> LevelledMesh::cut(int band, double y) const {
   const float level = static_cast<float>(y);
   std::vector<Cut> cuts;
   cuts.reserve(512);
-  for (const Reach& r : m_bands[static_cast<std::size_t>(band)]) {
-    if (r.low > level || r.high < level) continue;
+  for (const Reach& r : m_bands[band]) {
+    if (r.low > level || r.high < level)
+      continue;
     const Vertex &a = m_vertices[r.vertices[0]], &b = m_vertices[r.vertices[1]],
                  &c = m_vertices[r.vertices[2]];
     cut_triangle({a.number, b.number, c.number}, {&a.position, &b.position, &c.position}, plane, n,
@@ -217,19 +232,22 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   });
-  if (points.size() < 3) return points;
+  if (points.size() < 3)
+    return points;
   std::vector<Vec2> hull(2 * points.size());
   std::size_t k = 0;
   auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) {
     return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
   };
   for (const Vec2& p : points) {
-    while (k >= 2 && turn(hull[k - 2], hull[k - 1], p) <= 0) --k;
+    while (k >= 2 && turn(hull[k - 2], hull[k - 1], p) <= 0)
+      --k;
     hull[k++] = p;
   }
   const std::size_t lower = k + 1;
   for (std::size_t i = points.size() - 1; i-- > 0;) {
-    while (k >= lower && turn(hull[k - 2], hull[k - 1], points[i]) <= 0) --k;
+    while (k >= lower && turn(hull[k - 2], hull[k - 1], points[i]) <= 0)
+      --k;
     hull[k++] = points[i];
   }
   hull.resize(k - 1);
@@ -246,14 +264,16 @@ double closed_length(const std::vector<Vec2>& polygon) {
 double taut_girth(const Loop& loop) {
   std::vector<Vec2> points;
   points.reserve(loop.segments.size());
-  for (const auto& s : loop.segments) points.push_back(s[0]);
+  for (const auto& s : loop.segments)
+    points.push_back(s[0]);
   return closed_length(convex_hull(std::move(points)));
 }
 
 std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low,
                                            double high) {
   const double a = segment[0][axis], b = segment[1][axis];
-  if (std::max(a, b) < low || std::min(a, b) > high) return std::nullopt;
+  if (std::max(a, b) < low || std::min(a, b) > high)
+    return std::nullopt;
   auto at = [&](double end, const Vec2& q) {
     const double to = std::clamp(end, low, high);
     return to == end ? q : Vec2(segment[0] + (to - a) / (b - a) * (segment[1] - segment[0]));
@@ -263,13 +283,15 @@ std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, i
 
 Vec2 outermost(const Loop& loop, const Vec2& direction, double flat) {
   double most = -1e300;
-  for (const auto& segment : loop.segments) most = std::max(most, direction.dot(segment[0]));
+  for (const auto& segment : loop.segments)
+    most = std::max(most, direction.dot(segment[0]));
   Vec2 sum = Vec2::Zero();
   double weight = 0;
   for (const auto& segment : loop.segments) {
     const double a = direction.dot(segment[0]) - most + flat,
                  b = direction.dot(segment[1]) - most + flat;
-    if (a <= 0 && b <= 0) continue;
+    if (a <= 0 && b <= 0)
+      continue;
     const double length = (segment[1] - segment[0]).norm();
     constexpr int PIECES = 8; // a segment of a coarse mesh may be longer than the flat part
     for (int k = 0; k < PIECES; ++k) {
@@ -280,19 +302,23 @@ Vec2 outermost(const Loop& loop, const Vec2& direction, double flat) {
       }
     }
   }
-  if (weight <= 0) return loop.centroid;
+  if (weight <= 0)
+    return loop.centroid;
   const Vec2 middle = sum / weight;
   return middle + (most - direction.dot(middle)) * direction;
 }
 
 bool encloses(const Loop& loop, const Vec2& q) {
-  if ((q - loop.low).minCoeff() < 0 || (loop.high - q).minCoeff() < 0) return false;
+  if ((q - loop.low).minCoeff() < 0 || (loop.high - q).minCoeff() < 0)
+    return false;
   int winding = 0;
   for (const auto& s : loop.segments) {
     const Vec2 a = s[0] - q, b = s[1] - q;
     const double c = a.x() * b.y() - a.y() * b.x();
-    if (a.y() <= 0 && b.y() > 0 && c > 0) ++winding;
-    if (a.y() > 0 && b.y() <= 0 && c < 0) --winding;
+    if (a.y() <= 0 && b.y() > 0 && c > 0)
+      ++winding;
+    if (a.y() > 0 && b.y() <= 0 && c < 0)
+      --winding;
   }
   return winding != 0;
 }

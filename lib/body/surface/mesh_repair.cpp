@@ -20,13 +20,15 @@ std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh,
   std::vector<std::array<int, 2>> border;
   for (std::size_t i = 0; i < list.size();) {
     std::size_t j = i;
-    while (j < list.size() && list[j].key == list[i].key) ++j;
+    while (j < list.size() && list[j].key == list[i].key)
+      ++j;
     if (j - i == 1) {
       const int low = static_cast<int>(list[i].key >> 32),
                 high = static_cast<int>(list[i].key & 0xffffffffu);
       const Triangle& t = mesh.triangles[list[i].face];
       bool forward = false; // the face may have been turned since: look again
-      for (int k = 0; k < 3; ++k) forward |= t[k] == low && t[(k + 1) % 3] == high;
+      for (int k = 0; k < 3; ++k)
+        forward |= t[k] == low && t[(k + 1) % 3] == high;
       border.push_back(forward ? std::array<int, 2>{high, low} : std::array<int, 2>{low, high});
     }
     i = j;
@@ -43,13 +45,14 @@ std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>
   auto next_of = [&](int v) {
     for (auto it = std::lower_bound(border.begin(), border.end(), std::array<int, 2>{v, -1});
          it != border.end() && (*it)[0] == v; ++it)
-      if (!used[static_cast<std::size_t>(it - border.begin())])
+      if (!used[it - border.begin()])
         return static_cast<int>(it - border.begin());
     return -1;
   };
   std::vector<std::vector<int>> loops;
   for (std::size_t start = 0; start < border.size(); ++start) {
-    if (used[start]) continue;
+    if (used[start])
+      continue;
     std::vector<int> walk = {border[start][0]};
     int e = static_cast<int>(start);
     while (true) {
@@ -59,11 +62,15 @@ std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>
       if (before != walk.end()) {
         loops.emplace_back(before, walk.end());
         walk.erase(before + 1, walk.end());
-        if (loops.back().size() < 3) return {};
-        if (walk.size() == 1 && v == border[start][0]) break;
-      } else walk.push_back(v);
+        if (loops.back().size() < 3)
+          return {};
+        if (walk.size() == 1 && v == border[start][0])
+          break;
+      } else
+        walk.push_back(v);
       e = next_of(v);
-      if (e < 0) return {};
+      if (e < 0)
+        return {};
     }
   }
   return loops;
@@ -100,11 +107,13 @@ TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Tri
   for (std::size_t v = 0; v < positions.size(); ++v) {
     std::sort(seen.begin() + first[v], seen.begin() + first[v + 1]);
     for (int i = first[v] + 1; i < first[v + 1]; ++i)
-      if (seen[i][0] == seen[i - 1][0] && seen[i][1] == seen[i - 1][1]) keep[seen[i][2]] = 0;
+      if (seen[i][0] == seen[i - 1][0] && seen[i][1] == seen[i - 1][1])
+        keep[seen[i][2]] = 0;
   }
   std::vector<Triangle> kept;
   for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
-    if (!keep[i]) continue;
+    if (!keep[i])
+      continue;
     Triangle t = skin.triangles[i];
     for (int& v : t) {
       int& n = number[v];
@@ -122,7 +131,8 @@ TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Tri
 
 bool weld(TriangleMesh& mesh, std::vector<int>& of_scan) {
   std::vector<int> order(mesh.positions.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = static_cast<int>(i);
   auto less = [&](int a, int b) {
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
     return std::tie(p.x(), p.y(), p.z(), a) < std::tie(q.x(), q.y(), q.z(), b);
@@ -135,7 +145,8 @@ bool weld(TriangleMesh& mesh, std::vector<int>& of_scan) {
     target[order[i]] = same ? target[order[i - 1]] : order[i];
     any |= same;
   }
-  if (!any) return false;
+  if (!any)
+    return false;
   std::vector<int> number(order.size(), -1);
   std::vector<Vec3> positions;
   for (std::size_t v = 0; v < order.size(); ++v)
@@ -146,22 +157,27 @@ bool weld(TriangleMesh& mesh, std::vector<int>& of_scan) {
   std::vector<Triangle> triangles;
   for (const Triangle& t : mesh.triangles) {
     const Triangle w = {number[target[t[0]]], number[target[t[1]]], number[target[t[2]]]};
-    if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) triangles.push_back(w);
+    if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0])
+      triangles.push_back(w);
   }
   mesh.positions = std::move(positions);
   mesh.triangles = std::move(triangles);
   for (int& v : of_scan)
-    if (v >= 0) v = number[target[v]];
+    if (v >= 0)
+      v = number[target[v]];
   return true;
 }
 
 int drop_small_pieces(TriangleMesh& mesh, std::vector<int>& of_scan) {
   const std::vector<int> piece = connected_components(mesh.positions.size(), mesh.triangles);
   std::vector<std::size_t> faces(mesh.positions.size(), 0);
-  for (const Triangle& t : mesh.triangles) ++faces[piece[t[0]]];
+  for (const Triangle& t : mesh.triangles)
+    ++faces[piece[t[0]]];
   int dropped = 0;
-  for (std::size_t n : faces) dropped += n > 0 && n * 100 < mesh.triangles.size();
-  if (dropped == 0) return 0;
+  for (std::size_t n : faces)
+    dropped += n > 0 && n * 100 < mesh.triangles.size();
+  if (dropped == 0)
+    return 0;
   auto keep = [&](int v) { return faces[piece[v]] * 100 >= mesh.triangles.size(); };
   std::vector<int> number(mesh.positions.size(), -1);
   TriangleMesh kept;
@@ -171,9 +187,11 @@ int drop_small_pieces(TriangleMesh& mesh, std::vector<int>& of_scan) {
       kept.positions.push_back(mesh.positions[v]);
     }
   for (const Triangle& t : mesh.triangles)
-    if (keep(t[0])) kept.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    if (keep(t[0]))
+      kept.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   for (int& v : of_scan)
-    if (v >= 0) v = number[v];
+    if (v >= 0)
+      v = number[v];
   mesh = std::move(kept);
   return dropped;
 }
@@ -184,7 +202,8 @@ std::vector<HalfEdge> half_edges(const TriangleMesh& mesh) {
       mesh.positions.size() + 1,
       0); // by the lower vertex, then those of one vertex among themselves
   for (const Triangle& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++first[std::min(t[k], t[(k + 1) % 3]) + 1];
+    for (int k = 0; k < 3; ++k)
+      ++first[std::min(t[k], t[(k + 1) % 3]) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<std::size_t> at(first.begin(), first.end() - 1);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
@@ -207,10 +226,14 @@ EdgeCounts count_edges(const std::vector<HalfEdge>& list) {
   EdgeCounts counts;
   for (std::size_t i = 0; i < list.size();) {
     std::size_t j = i;
-    while (j < list.size() && list[j].key == list[i].key) ++j;
-    if (j - i == 1) ++counts.border;
-    else if (j - i > 2) ++counts.crowded;
-    else if (list[i].forward == list[i + 1].forward) ++counts.flipped;
+    while (j < list.size() && list[j].key == list[i].key)
+      ++j;
+    if (j - i == 1)
+      ++counts.border;
+    else if (j - i > 2)
+      ++counts.crowded;
+    else if (list[i].forward == list[i + 1].forward)
+      ++counts.flipped;
     i = j;
   }
   return counts;
@@ -226,7 +249,8 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   const auto root = [&](int f) {
     int top = f;
     char turned = 0;
-    for (; parent[top] != top; top = parent[top]) turned ^= against[top];
+    for (; parent[top] != top; top = parent[top])
+      turned ^= against[top];
     for (int next; parent[f] != top && f != top; f = next) {
       next = parent[f];
       const char rest = turned ^ against[f];
@@ -237,12 +261,14 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
     return top;
   };
   for (std::size_t i = 0; i + 1 < list.size(); ++i) {
-    if (list[i].key != list[i + 1].key) continue;
+    if (list[i].key != list[i + 1].key)
+      continue;
     if ((i > 0 && list[i - 1].key == list[i].key) ||
         (i + 2 < list.size() && list[i + 2].key == list[i].key))
       continue; // crowded
     const int a = root(list[i].face), b = root(list[i + 1].face);
-    if (a == b) continue;
+    if (a == b)
+      continue;
     const char turned_a = a == list[i].face ? 0 : against[list[i].face],
                turned_b = b == list[i + 1].face ? 0 : against[list[i + 1].face];
     parent[std::max(a, b)] = std::min(a, b);
@@ -266,14 +292,16 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
         (mesh.positions[t[0]] - o).dot((mesh.positions[t[1]] - o).cross(mesh.positions[t[2]] - o));
   }
   for (std::size_t f = 0; f < n; ++f)
-    if (volume[parent[f]] < 0) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+    if (volume[parent[f]] < 0)
+      std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
 }
 
 std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list,
                            double least, std::size_t most) {
   const std::vector<std::array<int, 2>> border = border_of(mesh, list);
   DisjointSets joined(mesh.positions.size());
-  for (const auto& [a, b] : border) joined.unite(a, b);
+  for (const auto& [a, b] : border)
+    joined.unite(a, b);
   std::map<int, std::pair<Hole, Box3>> pieces; // by the lowest vertex
   for (const auto& [a, b] : border) {
     auto& [hole, box] = pieces[joined.find(a)];
@@ -287,29 +315,35 @@ std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>
     Hole& hole = piece.first;
     hole.width = piece.second.size().norm();
     hole.center /= hole.edges;
-    if (hole.width >= least) holes.push_back(hole);
+    if (hole.width >= least)
+      holes.push_back(hole);
   }
   std::stable_sort(holes.begin(), holes.end(),
                    [](const Hole& a, const Hole& b) { return a.width > b.width; });
-  if (holes.size() > most) holes.resize(most);
+  if (holes.size() > most)
+    holes.resize(most);
   return holes;
 }
 
 bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest, double low,
                 double high) {
   const std::vector<std::vector<int>> loops = border_loops(border_of(mesh, list));
-  if (loops.empty()) return false;
+  if (loops.empty())
+    return false;
   for (const std::vector<int>& loop : loops) {
     Box3 box;
-    for (const int v : loop) box.add(mesh.positions[v]);
+    for (const int v : loop)
+      box.add(mesh.positions[v]);
     const bool at_an_end = box.high.y() < low || box.low.y() > high;
-    if (box.size().norm() > widest && loop.size() > FEW_EDGES && !at_an_end) return false;
+    if (box.size().norm() > widest && loop.size() > FEW_EDGES && !at_an_end)
+      return false;
   }
   std::vector<Vec3> normal(mesh.positions.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
     const Vec3 facing =
         area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-    for (const int v : t) normal[v] += facing;
+    for (const int v : t)
+      normal[v] += facing;
   }
   for (const std::vector<int>& loop : loops) {
     if (loop.size() == 3) {
@@ -317,14 +351,16 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
       continue;
     }
     Vec3 middle = Vec3::Zero();
-    for (const int v : loop) middle += mesh.positions[v] / static_cast<double>(loop.size());
+    for (const int v : loop)
+      middle += mesh.positions[v] / static_cast<double>(loop.size());
     if (loop.size() <= FEW_EDGES) { // over a sphere the hub stands half as far out as its rim's
                                     // normals lean, which without the faces inside lean too far
       Vec3 out = Vec3::Zero();
       double lean = 0, reach = 0;
       for (const int v : loop) {
         const double length = normal[v].norm(), share = 1 / static_cast<double>(loop.size());
-        if (length <= 0) continue;
+        if (length <= 0)
+          continue;
         const Vec3 arm = mesh.positions[v] - middle;
         out += normal[v] / length;
         lean += share * arm.dot(normal[v]) / length;
@@ -333,7 +369,7 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
       if (const double length = out.norm(); length > 0)
         middle += std::clamp(0.3 * lean, -0.2 * reach, 0.2 * reach) / length * out;
     }
-    const int hub = static_cast<int>(mesh.positions.size());
+    const int hub = std::ssize(mesh.positions);
     mesh.positions.push_back(middle);
     for (std::size_t k = 0; k < loop.size(); ++k)
       mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});

@@ -22,11 +22,13 @@ void add_face_samples(const Vec3& a, const Vec3& b, const Vec3& c, double spacin
                       std::vector<Vec3>& points) {
   const double longest =
       std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-  if (longest <= spacing) return;
+  if (longest <= spacing)
+    return;
   const int n = std::min(200, static_cast<int>(std::ceil(longest / (0.6 * spacing))));
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n - i; ++j) {
-      if ((i == 0 && j == 0) || i == n || j == n) continue; // the corners are points already
+      if ((i == 0 && j == 0) || i == n || j == n)
+        continue; // the corners are points already
       points.push_back(a + (b - a) * i / n + (c - a) * j / n);
     }
 }
@@ -45,7 +47,7 @@ std::vector<Vec3> average_by_cell(const std::vector<Vec3>& points, double cell) 
     std::size_t j = i;
     Vec3 sum = Vec3::Zero();
     for (; j < keys.size() && keys[j].same_cell(keys[i]); ++j)
-      sum += points[static_cast<std::size_t>(keys[j].index)];
+      sum += points[keys[j].index];
     means.push_back(sum / static_cast<double>(j - i));
     i = j;
   }
@@ -56,8 +58,10 @@ std::vector<Vec3> average_by_cell(const std::vector<Vec3>& points, double cell) 
 class Occupancy {
 public:
   Occupancy(const std::vector<Vec3>& points, double cell) : m_cell(cell) {
-    for (const Vec3& p : points) m_box.add(p);
-    for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(m_box.size()[a] / cell) + 1;
+    for (const Vec3& p : points)
+      m_box.add(p);
+    for (int a = 0; a < 3; ++a)
+      m_n[a] = static_cast<int>(m_box.size()[a] / cell) + 1;
     m_full.assign(static_cast<std::size_t>(m_n[0]) * m_n[1] * m_n[2], 0);
     for (const Vec3& p : points) {
       int c[3];
@@ -72,11 +76,14 @@ public:
       const Vec3 p = from + t * direction - m_box.low;
       int c[3];
       for (int a = 0; a < 3; ++a) {
-        if (p[a] < 0) return true;
+        if (p[a] < 0)
+          return true;
         c[a] = static_cast<int>(p[a] / m_cell);
-        if (c[a] >= m_n[a]) return true;
+        if (c[a] >= m_n[a])
+          return true;
       }
-      if (m_full[(static_cast<std::size_t>(c[0]) * m_n[1] + c[1]) * m_n[2] + c[2]]) return false;
+      if (m_full[(static_cast<std::size_t>(c[0]) * m_n[1] + c[1]) * m_n[2] + c[2]])
+        return false;
     }
   }
 
@@ -106,7 +113,8 @@ void orient_outward(OrientedPoints& samples, const PointGrid& grid) {
   for (std::size_t i = 0; i < n; ++i) {
     double open = 0;
     for (const Vec3& d : directions)
-      if (occupancy.sees_out(samples.position[i], d)) open += samples.normal[i].dot(d);
+      if (occupancy.sees_out(samples.position[i], d))
+        open += samples.normal[i].dot(d);
     belief[i] = open;
   }
   // neighbours of like direction speak for each other
@@ -124,7 +132,8 @@ void orient_outward(OrientedPoints& samples, const PointGrid& grid) {
     belief = next;
   }
   for (std::size_t i = 0; i < n; ++i)
-    if (belief[i] < 0) samples.normal[i] = -samples.normal[i];
+    if (belief[i] < 0)
+      samples.normal[i] = -samples.normal[i];
 }
 
 } // namespace
@@ -134,7 +143,8 @@ OrientedPoints sample_surface(const std::vector<Vec3>& positions,
                               double spacing, double max_lonely_share) {
   std::vector<Vec3> points;
   for (std::size_t v = 0; v < positions.size(); ++v)
-    if (use[v]) points.push_back(positions[v]);
+    if (use[v])
+      points.push_back(positions[v]);
   const std::size_t n_scan = points.size();
   for (const Triangle& t : triangles)
     if (use[t[0]] && use[t[1]] && use[t[2]])
@@ -169,7 +179,8 @@ OrientedPoints sample_surface(const std::vector<Vec3>& positions,
     samples.area[i] = 3.14159265 * 1.5 * 1.5 * spacing * spacing / close;
   }
   samples.lonely_share = n ? static_cast<double>(lonely) / static_cast<double>(n) : 0;
-  if (samples.lonely_share > max_lonely_share) return samples;
+  if (samples.lonely_share > max_lonely_share)
+    return samples;
   orient_outward(samples, grid);
   // noise: how far the scan's own points lie from the plane of their nearest sample
   double sum = 0;
@@ -177,11 +188,13 @@ OrientedPoints sample_surface(const std::vector<Vec3>& positions,
   std::vector<double> off;
   for (std::size_t k = 0; k < n_scan; k += 1 + n_scan / 20000) {
     const int i = grid.nearest(points[k]);
-    if (i < 0) continue;
+    if (i < 0)
+      continue;
     off.push_back(std::abs((points[k] - samples.position[i]).dot(samples.normal[i])));
     ++counted;
   }
-  if (!off.empty()) sum = upper_median(off) / 0.6745;
+  if (!off.empty())
+    sum = upper_median(off) / 0.6745;
   samples.noise_m = counted ? sum : 0;
   return samples;
 }

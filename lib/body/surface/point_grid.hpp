@@ -13,7 +13,8 @@ public:
   /// @param cell m; queries reach one cell in every direction
   PointGrid(const std::vector<Vec3>& points, double cell) : m_points(&points), m_cell(cell) {
     std::size_t size = 1;
-    while (size < points.size()) size *= 2;
+    while (size < points.size())
+      size *= 2;
     m_mask = size - 1;
     m_first.assign(size + 1, 0);
     std::vector<std::uint32_t> bucket(points.size());
@@ -22,11 +23,12 @@ public:
           hash(key(points[i].x()), key(points[i].y()), key(points[i].z())));
       ++m_first[bucket[i] + 1];
     }
-    for (std::size_t b = 1; b < m_first.size(); ++b) m_first[b] += m_first[b - 1];
+    for (std::size_t b = 1; b < m_first.size(); ++b)
+      m_first[b] += m_first[b - 1];
     m_items.resize(points.size());
     std::vector<int> at(m_first.begin(), m_first.end() - 1);
     for (std::size_t i = 0; i < points.size(); ++i)
-      m_items[static_cast<std::size_t>(at[bucket[i]]++)] = static_cast<int>(i);
+      m_items[at[bucket[i]]++] = static_cast<int>(i);
   }
   double cell() const { return m_cell; }
   /// Calls visit(index, squared distance) for every point within `radius` <= cell of q.
@@ -42,8 +44,9 @@ public:
             continue; // two cells may share a bucket
           seen[n_seen++] = b;
           for (int i = m_first[b]; i < m_first[b + 1]; ++i) {
-            const double d = ((*m_points)[static_cast<std::size_t>(m_items[i])] - q).squaredNorm();
-            if (d <= radius * radius) visit(m_items[static_cast<std::size_t>(i)], d);
+            const double d = ((*m_points)[m_items[i]] - q).squaredNorm();
+            if (d <= radius * radius)
+              visit(m_items[i], d);
           }
         }
   }

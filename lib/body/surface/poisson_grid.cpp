@@ -58,7 +58,8 @@ void restrict_residual(const GridLevel& fine, GridLevel& coarse) {
           for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx) {
               const int fx = 2 * x + dx, fy = 2 * y + dy, fz = 2 * z + dz;
-              if (fx >= fine.n[0] || fy >= fine.n[1] || fz >= fine.n[2]) continue;
+              if (fx >= fine.n[0] || fy >= fine.n[1] || fz >= fine.n[2])
+                continue;
               const float w = (dx ? 0.5f : 1.0f) * (dy ? 0.5f : 1.0f) * (dz ? 0.5f : 1.0f);
               sum += w * residual[fine.at(fx, fy, fz)];
             }
@@ -125,7 +126,8 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
     const int nodes = static_cast<int>(std::ceil(box.size()[a] / h)) + 2 * PAD + 1;
     grid.n[a] = (nodes + 15) / 16 * 16 + 1; // halves four times
   }
-  for (int a = 0; a < 3; ++a) grid.origin[a] = box.center()[a] - 0.5 * (grid.n[a] - 1) * h;
+  for (int a = 0; a < 3; ++a)
+    grid.origin[a] = box.center()[a] - 0.5 * (grid.n[a] - 1) * h;
   std::vector<GridLevel> levels;
   levels.emplace_back(grid.n, h);
   for (int k = 0; k < 4; ++k) {
@@ -136,7 +138,8 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
   // V at the nodes, then its divergence by central differences
   GridLevel& fine = levels.front();
   std::array<std::vector<float>, 3> field;
-  for (auto& component : field) component.assign(fine.count(), 0.0f);
+  for (auto& component : field)
+    component.assign(fine.count(), 0.0f);
   const double density = 1 / (h * h * h);
   for (std::size_t i = 0; i < samples.position.size(); ++i) {
     const Vec3 q = (samples.position[i] - grid.origin) / h;
@@ -148,7 +151,8 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
         for (int dx = 0; dx < 3; ++dx) {
           const double w = -wx[dx] * wy[dy] * wz[dz] * samples.area[i] * density;
           const std::size_t at = fine.at(x + dx - 1, y + dy - 1, z + dz - 1);
-          for (int a = 0; a < 3; ++a) field[a][at] += static_cast<float>(w * samples.normal[i][a]);
+          for (int a = 0; a < 3; ++a)
+            field[a][at] += static_cast<float>(w * samples.normal[i][a]);
         }
   }
   const std::size_t step[3] = {1, static_cast<std::size_t>(fine.n[0]),
@@ -158,10 +162,12 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
       for (int x = 1; x < fine.n[0] - 1; ++x) {
         const std::size_t i = fine.at(x, y, z);
         double div = 0;
-        for (int a = 0; a < 3; ++a) div += field[a][i + step[a]] - field[a][i - step[a]];
+        for (int a = 0; a < 3; ++a)
+          div += field[a][i + step[a]] - field[a][i - step[a]];
         fine.f[i] = static_cast<float>(div / (2 * h));
       }
-  for (int cycle = 0; cycle < 7; ++cycle) v_cycle(levels, 0);
+  for (int cycle = 0; cycle < 7; ++cycle)
+    v_cycle(levels, 0);
   grid.value = std::move(fine.u);
   double sum = 0, weight = 0;
   for (std::size_t i = 0; i < samples.position.size(); ++i) {
@@ -169,7 +175,8 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
     weight += samples.area[i];
   }
   const float iso = static_cast<float>(sum / std::max(weight, 1e-30));
-  for (float& v : grid.value) v -= iso;
+  for (float& v : grid.value)
+    v -= iso;
   return grid;
 }
 

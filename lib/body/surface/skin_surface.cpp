@@ -56,11 +56,14 @@ double roughness(const TriangleMesh& mesh) {
     if (const double length = normal[v].norm(); degree[v] && length > 0)
       bump[v] = (sum[v] / degree[v] - mesh.positions[v]).dot(normal[v]) / length;
   for (const Triangle& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) shared[t[k]] += bump[t[(k + 1) % 3]];
+    for (int k = 0; k < 3; ++k)
+      shared[t[k]] += bump[t[(k + 1) % 3]];
   std::vector<double> rest;
   for (std::size_t v = 0; v < n; ++v)
-    if (degree[v] > 3) rest.push_back(std::abs(bump[v] - shared[v] / degree[v]));
-  if (rest.empty()) return 0;
+    if (degree[v] > 3)
+      rest.push_back(std::abs(bump[v] - shared[v] / degree[v]));
+  if (rest.empty())
+    return 0;
   return upper_median(rest) / (0.6745 * 1.55); // of white noise with six neighbours
 }
 
@@ -85,14 +88,16 @@ void settle_on_points(TriangleMesh& mesh, const std::vector<Vec3>& points,
       bool mixed = false;
       coarse.within(p, radius,
                     [&](int i, double) { mixed |= samples.normal[i].dot(normals[v]) < 0; });
-      if (weight <= 0) continue;
+      if (weight <= 0)
+        continue;
       const double most = 0.4 * radius;
       shift[v] = std::clamp(sum / weight, -most, most) * std::min(1.0, weight / 1.5);
       if (mixed) {
         sum = weight = 0;
         coarse.within(p, radius, [&](int i, double d2) {
           const double agree = samples.normal[i].dot(normals[v]);
-          if (agree > 0.2) add(samples.position[i], d2, agree);
+          if (agree > 0.2)
+            add(samples.position[i], d2, agree);
         });
         shift[v] = weight > 0 ? std::clamp(sum / weight, -most, most) * std::min(1.0, weight) : 0;
       }
@@ -108,14 +113,17 @@ void fair(TriangleMesh& mesh, int rounds) {
   std::vector<Vec3> sum(n);
   std::vector<int> degree(n, 0);
   for (const Triangle& t : mesh.triangles)
-    for (const int v : t) ++degree[v];
+    for (const int v : t)
+      ++degree[v];
   for (int round = 0; round < 2 * rounds; ++round) {
     std::fill(sum.begin(), sum.end(), Vec3::Zero());
     for (const Triangle& t : mesh.triangles)
-      for (int k = 0; k < 3; ++k) sum[t[k]] += mesh.positions[t[(k + 1) % 3]];
+      for (int k = 0; k < 3; ++k)
+        sum[t[k]] += mesh.positions[t[(k + 1) % 3]];
     const double factor = round % 2 == 0 ? 0.5 : -0.52;
     for (std::size_t v = 0; v < n; ++v)
-      if (degree[v]) mesh.positions[v] += factor * (sum[v] / degree[v] - mesh.positions[v]);
+      if (degree[v])
+        mesh.positions[v] += factor * (sum[v] / degree[v] - mesh.positions[v]);
   }
 }
 
@@ -134,7 +142,8 @@ TriangleMesh rebuild_surface(const std::vector<Vec3>& positions,
   double spacing = SAMPLE * stature;
   std::vector<Vec3> points;
   for (std::size_t v = 0; v < positions.size(); ++v)
-    if (is_body[v]) points.push_back(positions[v]);
+    if (is_body[v])
+      points.push_back(positions[v]);
   OrientedPoints samples = sample_surface(positions, triangles, is_body, spacing, MAX_LONELY);
   const bool thin = samples.lonely_share > MAX_LONELY;
   if (thin && triangles.empty()) {
@@ -147,7 +156,8 @@ TriangleMesh rebuild_surface(const std::vector<Vec3>& positions,
     samples = thin && triangles.empty()
                   ? sample_surface(points, {}, std::vector<char>(points.size(), 1), spacing, most)
                   : sample_surface(positions, triangles, is_body, spacing, most);
-    if (spacing >= 0.02 * stature) break;
+    if (spacing >= 0.02 * stature)
+      break;
   }
   noise_m = samples.noise_m;
   const double cell = std::max(CELL * stature, 1.2 * spacing);
@@ -170,7 +180,8 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
   };
   std::string why = rebuild_why;
   bool filled = false;
-  if (!why.empty()) skin.mesh = {};
+  if (!why.empty())
+    skin.mesh = {};
   else if (skin.mesh.triangles.size() < 1000)
     why = triangles.empty() ? "the scan has points and no faces" : "the scan has hardly any faces";
   else {
@@ -221,7 +232,8 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
       why = text_of("the scan is rough (%.1f mm)", 1000 * skin.noise_m);
   }
   skin.whole = why.empty() && !filled;
-  if (why.empty()) return skin;
+  if (why.empty())
+    return skin;
   double noise = 0;
   skin.mesh = rebuild_surface(positions, triangles, is_body, stature, noise);
   skin.noise_m = std::max(skin.noise_m, noise);

@@ -28,7 +28,8 @@ struct Neighbourhood {
 std::vector<Neighbourhood> neighbourhoods(const std::vector<Vec3>& points, double spacing) {
   std::vector<Neighbourhood> all(points.size());
   std::vector<int> open(points.size());
-  for (std::size_t i = 0; i < open.size(); ++i) open[i] = static_cast<int>(i);
+  for (std::size_t i = 0; i < open.size(); ++i)
+    open[i] = static_cast<int>(i);
   for (const double factor : REACH) {
     const double reach = factor * spacing;
     const PointGrid grid(points, reach);
@@ -44,15 +45,18 @@ std::vector<Neighbourhood> neighbourhoods(const std::vector<Vec3>& points, doubl
       n.reach = reach;
       std::sort(n.near.begin(), n.near.end()); // the grid's order is no order
       Vec3 mean = Vec3::Zero();
-      for (const int j : n.near) mean += points[j] / static_cast<double>(n.near.size());
+      for (const int j : n.near)
+        mean += points[j] / static_cast<double>(n.near.size());
       Mat3 spread = Mat3::Zero();
-      for (const int j : n.near) spread += (points[j] - mean) * (points[j] - mean).transpose();
+      for (const int j : n.near)
+        spread += (points[j] - mean) * (points[j] - mean).transpose();
       Eigen::SelfAdjointEigenSolver<Mat3> solver;
       solver.computeDirect(spread);
       n.normal = solver.eigenvectors().col(0);
     }
     open = std::move(left);
-    if (open.empty()) break;
+    if (open.empty())
+      break;
   }
   return all;
 }
@@ -81,7 +85,8 @@ std::vector<Vec3> fill_thin_cloud(const std::vector<Vec3>& points, double spacin
     std::vector<Vec3> added;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Neighbourhood& a = around[i];
-      if (a.reach <= DENSE * spacing) continue; // dense already, or alone
+      if (a.reach <= DENSE * spacing)
+        continue; // dense already, or alone
       for (const int j : a.near) {
         const Neighbourhood& b = around[j];
         const bool both = b.reach > DENSE * spacing &&
@@ -93,7 +98,8 @@ std::vector<Vec3> fill_thin_cloud(const std::vector<Vec3>& points, double spacin
           added.push_back(*middle);
       }
     }
-    if (added.empty()) break;
+    if (added.empty())
+      break;
     // neighbours share their middles: one point a cell is enough
     const double cell = 0.6 * spacing;
     std::vector<std::pair<std::array<long, 3>, int>> order(added.size());
@@ -103,7 +109,8 @@ std::vector<Vec3> fill_thin_cloud(const std::vector<Vec3>& points, double spacin
                   static_cast<int>(i)};
     std::sort(order.begin(), order.end());
     for (std::size_t i = 0; i < order.size(); ++i)
-      if (i == 0 || order[i].first != order[i - 1].first) cloud.push_back(added[order[i].second]);
+      if (i == 0 || order[i].first != order[i - 1].first)
+        cloud.push_back(added[order[i].second]);
   }
   return cloud;
 }

@@ -16,8 +16,9 @@ std::vector<std::size_t> label_regions(const NodeGrid& grid, const std::vector<c
   const int nx = grid.n[0], ny = grid.n[1], nz = grid.n[2];
   const std::size_t sy = static_cast<std::size_t>(nx), sz = sy * ny;
   for (std::size_t seed = 0; seed < inside.size(); ++seed) {
-    if (inside[seed] != wanted || label[seed] >= 0) continue;
-    const int region = static_cast<int>(sizes.size());
+    if (inside[seed] != wanted || label[seed] >= 0)
+      continue;
+    const int region = std::ssize(sizes);
     sizes.push_back(0);
     stack.assign(1, seed);
     label[seed] = region;
@@ -28,7 +29,8 @@ std::vector<std::size_t> label_regions(const NodeGrid& grid, const std::vector<c
       const int x = static_cast<int>(i % sy), y = static_cast<int>(i / sy % ny),
                 z = static_cast<int>(i / sz);
       auto visit = [&](bool valid, std::size_t j) {
-        if (!valid || inside[j] != wanted || label[j] >= 0) return;
+        if (!valid || inside[j] != wanted || label[j] >= 0)
+          return;
         label[j] = region;
         stack.push_back(j);
       };
@@ -50,11 +52,13 @@ void keep_one_body(const NodeGrid& grid, std::vector<char>& inside) {
   if (!in_sizes.empty()) {
     const int body =
         static_cast<int>(std::max_element(in_sizes.begin(), in_sizes.end()) - in_sizes.begin());
-    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = label[i] == body;
+    for (std::size_t i = 0; i < inside.size(); ++i)
+      inside[i] = label[i] == body;
   }
   label_regions(grid, inside, 0, label);
   for (std::size_t i = 0; i < inside.size(); ++i)
-    if (label[i] != label[0]) inside[i] = 1; // node 0 lies on the border, outside
+    if (label[i] != label[0])
+      inside[i] = 1; // node 0 lies on the border, outside
 }
 
 /// Fills nodes until no cell has a diagonal contact: across a face, or across the cell's body
@@ -72,7 +76,8 @@ void remove_pinches(const NodeGrid& grid, std::vector<char>& inside) {
             corner[k] = grid.at(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
             count += inside[corner[k]];
           }
-          if (count < 2 || count > 6) continue;
+          if (count < 2 || count > 6)
+            continue;
           auto fill = [&](std::size_t a, std::size_t b) {
             const std::size_t pick = grid.value[a] >= grid.value[b] ? a : b;
             inside[pick] = 1;
@@ -87,11 +92,14 @@ void remove_pinches(const NodeGrid& grid, std::vector<char>& inside) {
               a ? fill(corner[face[1]], corner[face[3]]) : fill(corner[face[0]], corner[face[2]]);
           }
           count = 0;
-          for (int k = 0; k < 8; ++k) count += inside[corner[k]];
+          for (int k = 0; k < 8; ++k)
+            count += inside[corner[k]];
           for (int k = 0; k < 4; ++k) {
             const bool a = inside[corner[k]], b = inside[corner[7 - k]];
-            if (count == 2 && a && b) fill(corner[k ^ 1], corner[k ^ 2]);
-            if (count == 6 && !a && !b) fill(corner[k], corner[7 - k]);
+            if (count == 2 && a && b)
+              fill(corner[k ^ 1], corner[k ^ 2]);
+            if (count == 6 && !a && !b)
+              fill(corner[k], corner[7 - k]);
           }
         }
   }
@@ -101,15 +109,18 @@ void remove_pinches(const NodeGrid& grid, std::vector<char>& inside) {
 
 TriangleMesh zero_surface(NodeGrid grid) {
   std::vector<char> inside(grid.value.size());
-  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = grid.value[i] > 0;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    inside[i] = grid.value[i] > 0;
   keep_one_body(grid, inside);
   remove_pinches(grid, inside);
   keep_one_body(grid, inside);
   // values that follow the corrected sides
   const float tiny = 1e-3f;
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    if (inside[i] && grid.value[i] <= 0) grid.value[i] = tiny;
-    if (!inside[i] && grid.value[i] > 0) grid.value[i] = -tiny;
+    if (inside[i] && grid.value[i] <= 0)
+      grid.value[i] = tiny;
+    if (!inside[i] && grid.value[i] > 0)
+      grid.value[i] = -tiny;
   }
   TriangleMesh mesh;
   std::vector<int> vertex(inside.size(), -1); // of the cell whose lowest corner this is
@@ -125,13 +136,16 @@ TriangleMesh zero_surface(NodeGrid grid) {
           corner[k] = grid.at(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
           count += inside[corner[k]];
         }
-        if (count == 0 || count == 8) continue;
-        for (int k = 0; k < 8; ++k) at[k] = grid.node(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+        if (count == 0 || count == 8)
+          continue;
+        for (int k = 0; k < 8; ++k)
+          at[k] = grid.node(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
         Vec3 sum = Vec3::Zero();
         int n = 0;
         for (const auto& e : edges) {
           const std::size_t a = corner[e[0]], b = corner[e[1]];
-          if (inside[a] == inside[b]) continue;
+          if (inside[a] == inside[b])
+            continue;
           const double w = grid.value[a] / (static_cast<double>(grid.value[a]) - grid.value[b]);
           sum += at[e[0]] + w * (at[e[1]] - at[e[0]]);
           ++n;
@@ -148,7 +162,8 @@ TriangleMesh zero_surface(NodeGrid grid) {
           int next[3] = {x, y, z};
           ++next[axis];
           const std::size_t j = grid.at(next[0], next[1], next[2]);
-          if (inside[i] == inside[j]) continue;
+          if (inside[i] == inside[j])
+            continue;
           const int u = (axis + 1) % 3, v = (axis + 2) % 3;
           auto cell = [&](int du, int dv) {
             int c[3] = {x, y, z};
@@ -158,7 +173,8 @@ TriangleMesh zero_surface(NodeGrid grid) {
           };
           int q[4] = {cell(-1, -1), cell(0, -1), cell(0, 0),
                       cell(-1, 0)}; // counter-clockwise about +axis
-          if (!inside[i]) std::swap(q[1], q[3]);
+          if (!inside[i])
+            std::swap(q[1], q[3]);
           const auto& p = mesh.positions;
           if ((p[q[0]] - p[q[2]]).squaredNorm() <= (p[q[1]] - p[q[3]]).squaredNorm()) {
             mesh.triangles.push_back({q[0], q[1], q[2]});

@@ -24,10 +24,12 @@ std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Tria
   std::vector<Vec3> normals(skin.positions.size(), Vec3::Zero());
   for (const Triangle& t : triangles) {
     const Vec3 n = area_normal(skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]);
-    for (const int v : t) normals[v] += n;
+    for (const int v : t)
+      normals[v] += n;
   }
   for (Vec3& n : normals)
-    if (const double length = n.norm(); length > 1e-300) n /= length;
+    if (const double length = n.norm(); length > 1e-300)
+      n /= length;
   return normals;
 }
 
@@ -44,7 +46,8 @@ void spread(const std::vector<std::array<int, 2>>& edges, const std::vector<char
     ++count[b];
   }
   for (std::size_t v = 0; v < displacement.size(); ++v)
-    if (mark[v] && count[v] > 0) displacement[v] = 0.5 * displacement[v] + 0.5 * sum[v] / count[v];
+    if (mark[v] && count[v] > 0)
+      displacement[v] = 0.5 * displacement[v] + 0.5 * sum[v] / count[v];
 }
 
 /// The triangles within so many rings of the marked vertices: `mark` grows with them.
@@ -77,16 +80,20 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
   number.reserve(skin.positions.size() / 4);
   std::vector<int> cell_of(skin.positions.size(), -1);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
-    if (!may_move[v]) continue;
+    if (!may_move[v])
+      continue;
     const Vec3 p = skin.positions[v] / POINT_CELL;
     const auto [at, is_new] =
         number.try_emplace(key(std::lround(p.x()), std::lround(p.y()), std::lround(p.z())),
                            static_cast<int>(faced.size()));
-    if (is_new) faced.emplace_back(at->first, 0);
+    if (is_new)
+      faced.emplace_back(at->first, 0);
     cell_of[v] = at->second;
     for (int a = 0; a < 3; ++a) {
-      if (normals[v][a] > 0.5) faced[at->second].second |= 1 << a;
-      if (normals[v][a] < -0.5) faced[at->second].second |= 8 << a;
+      if (normals[v][a] > 0.5)
+        faced[at->second].second |= 1 << a;
+      if (normals[v][a] < -0.5)
+        faced[at->second].second |= 8 << a;
     }
   }
   const std::size_t n = faced.size();
@@ -106,17 +113,21 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
       for (std::size_t i = 0, from = 0; i < n;
            ++i) { // cells come in order, and so do their neighbours on this side
         const long low = faced[i].first + (x << 40) + (y << 20) - 1;
-        while (from < n && faced[from].first < low) ++from;
+        while (from < n && faced[from].first < low)
+          ++from;
         for (std::size_t at = from; at < n && faced[at].first <= low + 2; ++at)
           around[i] |= faced[at].second;
       }
   std::vector<char> candidate(skin.positions.size(), 0);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
-    if (!may_move[v]) continue;
+    if (!may_move[v])
+      continue;
     int against = 0;
     for (int a = 0; a < 3; ++a) {
-      if (normals[v][a] > 0.25) against |= 8 << a;
-      if (normals[v][a] < -0.25) against |= 1 << a;
+      if (normals[v][a] > 0.25)
+        against |= 8 << a;
+      if (normals[v][a] < -0.25)
+        against |= 1 << a;
     }
     candidate[v] = (around[place[cell_of[v]]] & against) != 0;
   }
@@ -133,7 +144,8 @@ std::vector<Vec3> wanted_displacements(const TriangleMesh& skin, const std::vect
   std::vector<Vec3> displacement(skin.positions.size(), Vec3::Zero());
   wants.assign(skin.positions.size(), 0);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
-    if (!candidate[v]) continue;
+    if (!candidate[v])
+      continue;
     const Vec3& p = skin.positions[v];
     double least = gap_m;
     tree.visit_overlaps({p.array() - reach, p.array() + reach}, [&](int f) {
@@ -142,10 +154,12 @@ std::vector<Vec3> wanted_displacements(const TriangleMesh& skin, const std::vect
       const Vec3 facing =
           (normals[t[0]] + normals[t[1]] + normals[t[2]])
               .normalized(); // of its vertices: one triangle of a rough skin looks anywhere
-      if (!(facing.dot(normals[v]) < OPPOSED)) return;
+      if (!(facing.dot(normals[v]) < OPPOSED))
+        return;
       const Vec3 away = p - collision::point_triangle(p, a, b, c).point;
       const double gap = away.dot(facing);
-      if (gap >= least || gap < -DEEPEST || (away - gap * facing).norm() > 0.5 * gap_m) return;
+      if (gap >= least || gap < -DEEPEST || (away - gap * facing).norm() > 0.5 * gap_m)
+        return;
       least = gap;
       displacement[v] = 0.5 * (gap_m - gap) * facing;
       wants[v] = 1;
@@ -169,11 +183,14 @@ void unfold(const std::vector<Vec3>& before, const std::vector<Triangle>& triang
       const Vec3 was = area_normal(before[a], before[b], before[c]);
       const Vec3 is = area_normal(before[a] + displacement[a], before[b] + displacement[b],
                                   before[c] + displacement[c]);
-      if (is.dot(was) >= LEAST_TURN * is.norm() * was.norm()) continue;
-      for (const int v : {a, b, c}) folded[v] = may_move[v];
+      if (is.dot(was) >= LEAST_TURN * is.norm() * was.norm())
+        continue;
+      for (const int v : {a, b, c})
+        folded[v] = may_move[v];
       any = true;
     }
-    if (!any) return;
+    if (!any)
+      return;
     spread(edges, folded, displacement);
   }
 }
@@ -183,26 +200,31 @@ void unfold(const std::vector<Vec3>& before, const std::vector<Triangle>& triang
 OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_move, double gap_m) {
   const std::vector<Vec3> before = skin.positions;
   const std::vector<char> candidate = facing_candidates(skin, may_move);
-  if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end()) return {};
+  if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end())
+    return {};
   std::vector<char> wants;
   const std::vector<Triangle> near = triangles_around(skin, candidate, 0);
   std::vector<Triangle> around; // triangles to which a displacement can spread
   std::vector<std::array<int, 2>> edges;
   for (int round = 0; round < PARTING_ROUNDS; ++round) {
     std::vector<Vec3> displacement = wanted_displacements(skin, candidate, near, gap_m, wants);
-    if (std::find(wants.begin(), wants.end(), 1) == wants.end()) break;
+    if (std::find(wants.begin(), wants.end(), 1) == wants.end())
+      break;
     if (edges.empty()) {
       around = triangles_around(skin, candidate, SMOOTHINGS);
       edges = edges_of(around);
     }
     std::vector<char> rim(
         displacement.size()); // takes part; what must move keeps its own displacement
-    for (std::size_t v = 0; v < displacement.size(); ++v) rim[v] = may_move[v] && !wants[v];
-    for (int k = 0; k < SMOOTHINGS; ++k) spread(edges, rim, displacement);
+    for (std::size_t v = 0; v < displacement.size(); ++v)
+      rim[v] = may_move[v] && !wants[v];
+    for (int k = 0; k < SMOOTHINGS; ++k)
+      spread(edges, rim, displacement);
     for (std::size_t v = 0; v < displacement.size(); ++v) {
       displacement[v] += skin.positions[v] - before[v];
       const double length = displacement[v].norm();
-      if (length > LARGEST_DISPLACEMENT) displacement[v] *= LARGEST_DISPLACEMENT / length;
+      if (length > LARGEST_DISPLACEMENT)
+        displacement[v] *= LARGEST_DISPLACEMENT / length;
     }
     unfold(before, around, edges, may_move, displacement);
     for (std::size_t v = 0; v < displacement.size(); ++v)
@@ -212,7 +234,8 @@ OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_m
   for (std::size_t v = 0; v < before.size(); ++v) {
     const double moved = (skin.positions[v] - before[v]).norm();
     opened.vertices += moved > 1e-4;
-    if (moved <= opened.largest_m) continue;
+    if (moved <= opened.largest_m)
+      continue;
     opened.largest_m = moved;
     opened.place = skin.positions[v];
   }

@@ -25,7 +25,8 @@ constexpr double CONE = 0.5;
 /// Of a crossed pair, d <= 0 below the skin: a spring of constant stiffness beyond the reach.
 ContactResponse push_out_of(double d, double reach, double k) {
   ContactResponse p;
-  if (d >= reach) return p;
+  if (d >= reach)
+    return p;
   const double depth = std::min(reach - d, reach + DEEPEST);
   p.force = 0.5 * k * depth;
   p.stiffness = 0.5 * k;
@@ -49,7 +50,8 @@ BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyColli
     const Vec2 a = flat[1] - flat[0], b = flat[2] - flat[0];
     m_face_area.push_back(0.5 * std::abs(a.x() * b.y() - a.y() * b.x()));
     m_longest_edge.push_back(std::max({a.norm(), b.norm(), (b - a).norm()}));
-    for (int e : m_topology.triangle_edges[f]) m_edge_area[e] += m_face_area.back() / 3;
+    for (int e : m_topology.triangle_edges[f])
+      m_edge_area[e] += m_face_area.back() / 3;
   }
   weigh_skin();
 }
@@ -65,9 +67,11 @@ void BodyContactEffect::weigh_skin() {
                b = skin.positions[t[2]] - skin.positions[t[0]];
     const double area = 0.5 * a.cross(b).norm();
     m_body_face_weight.push_back(area / (area + disc));
-    for (int v : t) m_body_vertex_weight[v] += area / 3;
+    for (int v : t)
+      m_body_vertex_weight[v] += area / 3;
   }
-  for (double& w : m_body_vertex_weight) w /= w + edge_disc;
+  for (double& w : m_body_vertex_weight)
+    w /= w + edge_disc;
 }
 
 void BodyContactEffect::declare(Couplings& couplings) const {
@@ -77,11 +81,14 @@ void BodyContactEffect::declare(Couplings& couplings) const {
 
 void BodyContactEffect::bind(const BlockMatrix& matrix) {
   m_edge_slot.clear();
-  for (const auto& e : m_topology.edges) m_edge_slot.push_back(matrix.slot(e[0], e[1]));
+  for (const auto& e : m_topology.edges)
+    m_edge_slot.push_back(matrix.slot(e[0], e[1]));
   m_stale = true; // pairs hold slots
 }
 
-void BodyContactEffect::refresh() { m_stale = m_look_for_crossings = true; }
+void BodyContactEffect::refresh() {
+  m_stale = m_look_for_crossings = true;
+}
 
 void BodyContactEffect::recall(const Memory& memory) {
   m_anchor = memory.anchor;
@@ -103,7 +110,8 @@ void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
     m_stale =
         moved > (m_reach_now[i] > edge_radius ? USED * m_reach_now[i] : USED * m_options.slack_m);
   }
-  if (m_stale) search(x);
+  if (m_stale)
+    search(x);
 }
 
 void BodyContactEffect::find_crossed(const std::vector<Vec3>& x) {
@@ -114,10 +122,12 @@ void BodyContactEffect::find_crossed(const std::vector<Vec3>& x) {
     m_clearance[i].triangle = d.triangle;
     m_inside[i] = d.triangle >= 0 ? d.distance < 0 : m_body.is_inside(x[i]);
   }
-  for (int f : m_body.faces_through(x, m_triangles)) m_crossing[f] = 1;
+  for (int f : m_body.faces_through(x, m_triangles))
+    m_crossing[f] = 1;
   m_n_crossing = 0;
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
-    for (int i : m_triangles[f]) m_crossing[f] |= m_inside[i];
+    for (int i : m_triangles[f])
+      m_crossing[f] |= m_inside[i];
     m_n_crossing += m_crossing[f];
   }
   m_look_for_crossings = m_n_crossing > 0;
@@ -151,7 +161,8 @@ void BodyContactEffect::measure_clearance(const std::vector<Vec3>& x) {
     // a point of the face is at most this far from one of its corners
     const double clear = std::min({bound[t[0]], bound[t[1]], bound[t[2]]}) - m_longest_edge[f];
     m_asked[f] = clear <= near;
-    for (int i : t) m_reach_now[i] = std::min(m_reach_now[i], std::max(edge_radius, clear));
+    for (int i : t)
+      m_reach_now[i] = std::min(m_reach_now[i], std::max(edge_radius, clear));
   }
 }
 
@@ -161,7 +172,8 @@ void BodyContactEffect::collect_pairs() {
   const double k = m_options.stiffness_n_m3;
   const bool clean = m_n_crossing == 0;
   for (const auto& found : m_found.vertex_face) {
-    if (!clean && m_inside[found.vertex]) continue; // pushed out along the nearest skin's normal
+    if (!clean && m_inside[found.vertex])
+      continue; // pushed out along the nearest skin's normal
     Pair p{{},
            {found.vertex, 0, 0},
            skin.triangles[found.body_triangle],
@@ -181,7 +193,8 @@ void BodyContactEffect::collect_pairs() {
     const double reach = EDGE_REACH * m_options.gap_m;
     bool crossed = false;
     if (!clean)
-      for (int f : m_topology.triangles_of_edge(found.edge)) crossed |= m_crossing[f];
+      for (int f : m_topology.triangles_of_edge(found.edge))
+        crossed |= m_crossing[f];
     m_pairs.push_back({{m_edge_slot[found.edge], 0, 0},
                        {e[0], e[1], 0},
                        {b0, b1, 0},
@@ -207,12 +220,15 @@ void BodyContactEffect::collect_pairs() {
 }
 
 void BodyContactEffect::search(const std::vector<Vec3>& x) {
-  if (m_look_for_crossings || m_n_crossing > 0 || !guarded()) find_crossed(x);
+  if (m_look_for_crossings || m_n_crossing > 0 || !guarded())
+    find_crossed(x);
   measure_clearance(x);
   m_body.near_pairs(x, m_triangles, m_topology, m_asked, m_options.gap_m + m_options.slack_m,
                     EDGE_REACH * m_options.gap_m + m_options.slack_m, m_found);
-  if (m_options.level < ContactLevel::EDGE) m_found.edge_edge.clear();
-  if (m_options.level < ContactLevel::FACE) m_found.face_vertex.clear();
+  if (m_options.level < ContactLevel::EDGE)
+    m_found.edge_edge.clear();
+  if (m_options.level < ContactLevel::FACE)
+    m_found.face_vertex.clear();
   collect_pairs();
   m_searched_at = m_added_at = x;
   m_skin_moved.assign(x.size(), 0);
@@ -249,7 +265,8 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair,
   c.distance = away.norm();
   c.valid = c.distance > 1e-12;
   if (!pair.crossed) {
-    if (c.valid) c.normal = away / c.distance;
+    if (c.valid)
+      c.normal = away / c.distance;
     return c;
   }
   Vec3 skin_normal = Vec3::Zero();
@@ -258,7 +275,8 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair,
   skin_normal.normalize();
   const double height = away.dot(skin_normal);
   if (c.valid && std::abs(height) >= CONE * c.distance) {
-    if (height < 0) c.distance = -c.distance;
+    if (height < 0)
+      c.distance = -c.distance;
     c.normal = away / c.distance;
   } else { // the line between the two shows no side: the skin's normal does
     c.normal = skin_normal;
@@ -269,7 +287,8 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair,
 }
 
 double BodyContactEffect::share_of(const Pair& pair, const std::vector<Vec3>& x) const {
-  if (pair.n != 2) return 1;
+  if (pair.n != 2)
+    return 1;
   const std::vector<Vec3>& skin = m_body.mesh().positions;
   return edge_edge_mollifier(x[pair.particle[1]] - x[pair.particle[0]],
                              skin[pair.body[1]] - skin[pair.body[0]]);
@@ -278,13 +297,15 @@ double BodyContactEffect::share_of(const Pair& pair, const std::vector<Vec3>& x)
 void BodyContactEffect::measure_moved(const std::vector<Vec3>& x) const {
   m_moved.assign(x.size(), 0);
   if (m_added_at.size() == x.size())
-    for (std::size_t i = 0; i < x.size(); ++i) m_moved[i] = (x[i] - m_added_at[i]).norm();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      m_moved[i] = (x[i] - m_added_at[i]).norm();
 }
 
 /// Of the pair's particles, by m_moved.
 double BodyContactEffect::farthest(const Pair& pair) const {
   double most = m_moved[pair.particle[0]];
-  for (int k = 1; k < pair.n; ++k) most = std::max(most, m_moved[pair.particle[k]]);
+  for (int k = 1; k < pair.n; ++k)
+    most = std::max(most, m_moved[pair.particle[k]]);
   return most;
 }
 
@@ -306,11 +327,13 @@ void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext
   const ContactResponse push = pair.crossed
                                    ? push_out_of(c.distance, pair.reach, m_push * stiffness)
                                    : evaluate_contact_potential(c.distance, pair.reach, stiffness);
-  if (push.force <= 0) return;
+  if (push.force <= 0)
+    return;
   const Mat3 block = push.stiffness * c.normal * c.normal.transpose();
   for (int k = 0; k < pair.n; ++k) {
     const double w = c.weight[k];
-    if (w <= 0) continue;
+    if (w <= 0)
+      continue;
     const int i = pair.particle[k];
     m_load[i] += w * push.force * c.normal;
     m_load_stiffness[i] += w * push.stiffness;
@@ -324,7 +347,8 @@ void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext
 void BodyContactEffect::push_out(int i, StepContext& context) {
   const collision::SignedDistance d =
       m_body.signed_distance(context.x[i], FAR, m_clearance[i].triangle);
-  if (d.triangle < 0) return;
+  if (d.triangle < 0)
+    return;
   const ContactResponse push =
       push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]);
   m_load[i] += push.force * d.normal;
@@ -342,27 +366,34 @@ void BodyContactEffect::add(StepContext& context) {
     pair.guarded = false;
     pair.share = -1;
     pair.clear -= farthest(pair);
-    if (!pair.crossed && pair.clear >= pair.reach) continue;
+    if (!pair.crossed && pair.clear >= pair.reach)
+      continue;
     const Closest c = closest(pair, x);
     pair.clear = c.valid ? c.distance : 0;
-    if (!c.valid) continue;
+    if (!c.valid)
+      continue;
     pair.share = share_of(pair, x);
-    if (c.distance < pair.reach) add_pair(pair, c, context);
-    if (pair.crossed || !context.limits || !guarded()) continue;
+    if (c.distance < pair.reach)
+      add_pair(pair, c, context);
+    if (pair.crossed || !context.limits || !guarded())
+      continue;
     guard(pair, c, *context.limits);
     pair.guarded = true;
   }
   if (m_n_crossing > 0)
     for (int i = 0; i < m_mesh.n_particles; ++i)
-      if (m_inside[i]) push_out(i, context);
-  for (int i = 0; i < m_mesh.n_particles; ++i) context.force[i] += m_load[i];
+      if (m_inside[i])
+        push_out(i, context);
+  for (int i = 0; i < m_mesh.n_particles; ++i)
+    context.force[i] += m_load[i];
   if (context.limits && guarded())
     for (std::size_t i = 0; i < x.size(); ++i) {
       double& most = context.limits->max_displacement[i];
       most = std::min(
           most, std::max(0.0, m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm()));
     }
-  if (m_options.friction > 0) add_friction(context);
+  if (m_options.friction > 0)
+    add_friction(context);
   m_carried.assign(x.size(), Vec3::Zero());
 }
 
@@ -371,15 +402,19 @@ void BodyContactEffect::add(StepContext& context) {
 bool BodyContactEffect::add_separating_planes(const std::vector<Vec3>& x,
                                               const std::vector<Vec3>& dx, MotionLimits& limits,
                                               bool) {
-  if (!guarded()) return false;
+  if (!guarded())
+    return false;
   m_moved.resize(dx.size());
-  for (std::size_t i = 0; i < dx.size(); ++i) m_moved[i] = dx[i].norm();
+  for (std::size_t i = 0; i < dx.size(); ++i)
+    m_moved[i] = dx[i].norm();
   bool added = false;
   for (Pair& pair : m_pairs) {
-    if (pair.guarded || pair.crossed || farthest(pair) <= APPROACH * pair.clear) continue;
+    if (pair.guarded || pair.crossed || farthest(pair) <= APPROACH * pair.clear)
+      continue;
     pair.guarded = true;
     const Closest c = closest(pair, x);
-    if (!c.valid) continue; // no plane separates them
+    if (!c.valid)
+      continue; // no plane separates them
     guard(pair, c, limits);
     added = true;
   }
@@ -390,16 +425,19 @@ double BodyContactEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
   measure_moved(x);
   for (const Pair& pair : m_pairs) {
-    if (!pair.crossed && pair.clear - farthest(pair) >= pair.reach) continue;
+    if (!pair.crossed && pair.clear - farthest(pair) >= pair.reach)
+      continue;
     const Closest c = closest(pair, x);
-    if (!c.valid || (!pair.crossed && c.distance >= pair.reach)) continue;
+    if (!c.valid || (!pair.crossed && c.distance >= pair.reach))
+      continue;
     const double k = (pair.share >= 0 ? pair.share : share_of(pair, x)) * pair.stiffness;
     sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy
                         : evaluate_contact_potential(c.distance, pair.reach, k).energy;
   }
   if (m_n_crossing > 0)
     for (int i = 0; i < m_mesh.n_particles; ++i) {
-      if (!m_inside[i]) continue;
+      if (!m_inside[i])
+        continue;
       const collision::SignedDistance d =
           m_body.signed_distance(x[i], FAR, m_clearance[i].triangle);
       if (d.triangle >= 0)

@@ -14,7 +14,8 @@ void BodyContactEffect::add_friction(StepContext& context) {
       continue;
     }
     const Vec3 normal = m_load[i] / load;
-    if (!m_has_anchor[i]) m_anchor[i] = context.x[i];
+    if (!m_has_anchor[i])
+      m_anchor[i] = context.x[i];
     m_has_anchor[i] = 1;
     Vec3 u = context.x[i] - m_anchor[i];
     u -= u.dot(normal) * normal;
@@ -27,7 +28,8 @@ void BodyContactEffect::add_friction(StepContext& context) {
       // skin was.
       context.force[i] -= most / length * u;
       const double kept = most / tangent + carried;
-      if (length > kept) m_anchor[i] = context.x[i] - kept / length * u;
+      if (length > kept)
+        m_anchor[i] = context.x[i] - kept / length * u;
       tangent = most / length;
     } else if (pull > most) {
       u *= most / pull;
@@ -44,9 +46,11 @@ void BodyContactEffect::add_friction(StepContext& context) {
 /// Of the ties, with the load of the last step: quadratic to the limit, then linear.
 double BodyContactEffect::friction_energy(const std::vector<Vec3>& x) const {
   double sum = 0;
-  if (m_options.friction <= 0) return sum;
+  if (m_options.friction <= 0)
+    return sum;
   for (int i = 0; i < m_mesh.n_particles; ++i) {
-    if (m_tangent[i] <= 0) continue;
+    if (m_tangent[i] <= 0)
+      continue;
     const double load = m_load[i].norm(), most = m_options.friction * load;
     Vec3 u = x[i] - m_anchor[i];
     u -= u.dot(m_load[i]) / (load * load) * m_load[i];

@@ -36,7 +36,8 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x,
                                         const std::vector<Vec3>& displacement,
                                         const std::vector<Vec3>& predictor) {
   m_against.assign(x.size(), 0);
-  if (m_reach_now.size() != x.size()) return; // nothing is known
+  if (m_reach_now.size() != x.size())
+    return; // nothing is known
   std::vector<double> radius(x.size());
   for (const Triangle& t : m_triangles) {
     double reach = 0, size = 0;
@@ -44,7 +45,8 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x,
       reach = std::max(reach, m_reach_now[t[k]]);
       size = std::max(size, (x[t[k]] - x[t[(k + 1) % 3]]).norm());
     }
-    for (int i : t) radius[i] = std::max(radius[i], 2 * reach + size);
+    for (int i : t)
+      radius[i] = std::max(radius[i], 2 * reach + size);
   }
   for (std::size_t i = 0; i < x.size(); ++i)
     radius[i] = std::max(radius[i], m_clearance[i].distance + (x[i] - m_clearance[i].at).norm());
@@ -63,7 +65,8 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x,
   m_displacement_bounds.build(m_body.mesh(), displacement,
                               {cloth.low - margin, cloth.high + margin}, *least + anywhere);
   const double most = fastest(m_displacement_bounds.all());
-  if (most <= 0) return;
+  if (most <= 0)
+    return;
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       m_against[i] = m_displacement_bounds.max_relative_displacement(predicted(predictor, i), x[i],
@@ -88,9 +91,11 @@ std::vector<double> BodyContactEffect::max_safe_skin_displacement(const std::vec
   std::vector<double> room(m_body.mesh().positions.size(),
                            0.5 * (EDGE_REACH * m_options.gap_m + m_options.slack_m));
   for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
+    if (pair.crossed)
+      continue;
     const double half = 0.5 * closest(pair, x).distance;
-    for (int k = 0; k < pair.n_body; ++k) room[pair.body[k]] = std::min(room[pair.body[k]], half);
+    for (int k = 0; k < pair.n_body; ++k)
+      room[pair.body[k]] = std::min(room[pair.body[k]], half);
   }
   return room;
 }
@@ -98,12 +103,14 @@ std::vector<double> BodyContactEffect::max_safe_skin_displacement(const std::vec
 double BodyContactEffect::collision_free_step_fraction(const std::vector<Vec3>& x,
                                                        const std::vector<Vec3>& displacement,
                                                        const std::vector<Vec3>& predictor) {
-  if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
+  if (m_edge_slot.empty())
+    return 0; // not bound yet: there was no step
   const auto stays = [](const std::vector<Vec3>& displacements) {
     return std::all_of(displacements.begin(), displacements.end(),
                        [](const Vec3& w) { return w == Vec3::Zero(); });
   };
-  if (stays(displacement) && stays(predictor)) return 1;
+  if (stays(displacement) && stays(predictor))
+    return 1;
   begin_step(x, 0);
   const auto room = [&](std::size_t i) {
     return USED * m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm();
@@ -111,18 +118,23 @@ double BodyContactEffect::collision_free_step_fraction(const std::vector<Vec3>& 
   bool enough = true;
   for (std::size_t i = 0; enough && i < x.size(); ++i)
     enough = room(i) >= 0.5 * USED * m_reach_now[i];
-  if (!enough) search(x);
+  if (!enough)
+    search(x);
   measure_against(x, displacement, predictor);
   double share = 1;
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (const double left = room(i); share * m_against[i] > left) share = left / m_against[i];
+    if (const double left = room(i); share * m_against[i] > left)
+      share = left / m_against[i];
   measure_moved(x);
   for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
+    if (pair.crossed)
+      continue;
     const double nearer_at_most = against(pair, displacement, predictor);
-    if (share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
+    if (share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair)))
+      continue;
     const Closest c = closest(pair, x);
-    if (!c.valid) continue;
+    if (!c.valid)
+      continue;
     // At the closest points: what turns with the skin, as carried cloth does, comes no nearer by
     // turning.
     double skin_toward = 0, cloth_away = 0;
@@ -139,7 +151,8 @@ double BodyContactEffect::collision_free_step_fraction(const std::vector<Vec3>& 
 void BodyContactEffect::push_predictor_off_skin(const std::vector<Vec3>& x,
                                                 const std::vector<Vec3>& displacement,
                                                 std::vector<Vec3>& predictor) {
-  if (m_edge_slot.empty()) return;
+  if (m_edge_slot.empty())
+    return;
   begin_step(x, 0);
   m_nearing.clear();
   m_measured.clear();
@@ -160,23 +173,27 @@ void BodyContactEffect::push_predictor_off_skin(const std::vector<Vec3>& x,
       if (const double nearer_at_most = against(*n.pair, displacement, predictor);
           nearer_at_most <= n.room || nearer_at_most <= 0)
         continue;
-      if (n.measured < 0) n.measured = measure(*n.pair);
+      if (n.measured < 0)
+        n.measured = measure(*n.pair);
       const auto& [c, skin_toward] = m_measured[n.measured];
-      if (!c.valid) continue;
+      if (!c.valid)
+        continue;
       double away = 0, share = 0;
       for (int k = 0; k < n.pair->n; ++k) {
         away += c.weight[k] * c.normal.dot(predictor[n.pair->particle[k]]);
         share += c.weight[k] * c.weight[k];
       }
       const double lack = skin_toward - away - 0.5 * SKIN_APPROACH * c.distance;
-      if (lack <= 0 || lack > MOST_CLEARED) continue;
+      if (lack <= 0 || lack > MOST_CLEARED)
+        continue;
       for (int k = 0; k < n.pair->n; ++k) {
         const int i = n.pair->particle[k];
         predictor[i] += c.weight[k] / share * lack * c.normal;
       }
       more = true;
     }
-    if (!more) return;
+    if (!more)
+      return;
   }
 }
 
@@ -185,7 +202,8 @@ void BodyContactEffect::push_predictor_off_skin(const std::vector<Vec3>& x,
 void BodyContactEffect::carry_anchors(const std::vector<Vec3>& positions) {
   const TriangleMesh& skin = m_body.mesh();
   for (std::size_t i = 0; i < m_anchor.size(); ++i) {
-    if (!m_has_anchor[i]) continue;
+    if (!m_has_anchor[i])
+      continue;
     const int f = m_clearance[i].triangle;
     if (f < 0) {
       m_has_anchor[i] = 0;
@@ -214,12 +232,15 @@ void BodyContactEffect::move_body(const std::vector<Vec3>& positions, const std:
   for (std::size_t i = 0; i < x.size(); ++i) {
     m_skin_moved[i] += m_against[i];
     Clearance& c = m_clearance[i];
-    if (c.distance >= 0) c.distance = std::max(0.0, c.distance - m_against[i]);
+    if (c.distance >= 0)
+      c.distance = std::max(0.0, c.distance - m_against[i]);
     c.at += predicted(predictor, i);
     for (std::vector<Vec3>* seen : {&m_searched_at, &m_added_at})
-      if (seen->size() == x.size()) (*seen)[i] += predicted(predictor, i);
+      if (seen->size() == x.size())
+        (*seen)[i] += predicted(predictor, i);
   }
-  for (Pair& pair : m_pairs) pair.clear -= against(pair, displacement, predictor);
+  for (Pair& pair : m_pairs)
+    pair.clear -= against(pair, displacement, predictor);
 }
 
 } // namespace sloper::cloth

@@ -17,7 +17,8 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
                          std::vector<char>& held) const {
   constexpr double ROUNDING = 1e-12; // m
   std::vector<double> share(dx.size()), length(dx.size());
-  for (std::size_t i = 0; i < dx.size(); ++i) length[i] = dx[i].norm();
+  for (std::size_t i = 0; i < dx.size(); ++i)
+    length[i] = dx[i].norm();
   // by how much particle k of a plane may still come towards the plane where it is, and its motion
   // towards it
   const auto room = [&](const SeparatingPlane& g, int k) {
@@ -37,7 +38,8 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const SeparatingPlane& g = planes[k];
     bool reach = false;
-    for (int p = 0; p < g.n && !reach; ++p) reach = room(g, p) < length[g.particle[p]];
+    for (int p = 0; p < g.n && !reach; ++p)
+      reach = room(g, p) < length[g.particle[p]];
     if (reach)
       active.push_back(
           {static_cast<int>(k), !planes_translate || g.n_above == 0 || g.n_above == g.n});
@@ -50,7 +52,8 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
   const auto free_interval = [&](const SeparatingPlane& g) {
     Interval free{-std::numeric_limits<double>::infinity(),
                   std::numeric_limits<double>::infinity()};
-    for (int k = 0; k < g.n_above; ++k) free.most = std::min(free.most, room(g, k) - toward(g, k));
+    for (int k = 0; k < g.n_above; ++k)
+      free.most = std::min(free.most, room(g, k) - toward(g, k));
     for (int k = g.n_above; k < g.n; ++k)
       free.least = std::max(free.least, toward(g, k) - room(g, k));
     return free;
@@ -61,13 +64,15 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
       double shift = 0; // of the plane along its normal
       if (!at.stays) {
         const Interval free = free_interval(g);
-        if (free.least <= free.most) continue;
+        if (free.least <= free.most)
+          continue;
         shift = std::clamp(0.0, free.most, free.least); // what is faster is cut
       }
       for (int k = 0; k < g.n; ++k) {
         const int i = g.particle[k];
         const double excess = toward(g, k) - room(g, k) + (k < g.n_above ? shift : -shift);
-        if (excess <= 0) continue;
+        if (excess <= 0)
+          continue;
         dx[i] += (k < g.n_above ? excess : -excess) * g.normal;
         held[i] = 1;
       }
@@ -81,7 +86,8 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
       const SeparatingPlane& g = planes[at.plane];
       if (!at.stays) {
         const Interval free = free_interval(g);
-        if (free.least <= free.most + ROUNDING) continue;
+        if (free.least <= free.most + ROUNDING)
+          continue;
         at.stays = true;
       }
       for (int k = 0; k < g.n; ++k) {

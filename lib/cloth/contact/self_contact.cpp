@@ -32,11 +32,13 @@ SelfContactEffect::SelfContactEffect(const ClothMesh& mesh, const SelfContactOpt
       m_last_dx(mesh.n_particles, Vec3::Zero()) {
   for (int i = 0; i < mesh.n_particles; ++i)
     m_thickness[i] = std::min(options.thickness_m, THICKNESS_PER_EDGE * mesh.shortest_edge[i]);
-  if (!m_thickness.empty()) m_reach = *std::max_element(m_thickness.begin(), m_thickness.end());
+  if (!m_thickness.empty())
+    m_reach = *std::max_element(m_thickness.begin(), m_thickness.end());
   double mean_edge = 0;
   for (const EdgeSpring& s : mesh.springs)
     mean_edge += s.rest_length / static_cast<double>(mesh.springs.size());
-  if (mean_edge > 0) m_options.search_m = std::min(m_options.search_m, SEARCH_PER_EDGE * mean_edge);
+  if (mean_edge > 0)
+    m_options.search_m = std::min(m_options.search_m, SEARCH_PER_EDGE * mean_edge);
   m_reach = std::min(m_reach, m_options.search_m);
   m_closed.assign(m_seam_class.empty() ? 0
                                        : 1 + std::max(-1, *std::max_element(m_seam_class.begin(),
@@ -49,13 +51,16 @@ SelfContactEffect::Pair SelfContactEffect::kind_of(const int* a, int n_a, const 
   const auto passes = [&](int particle) { return m_passes[particle] != 0; };
   if (!m_passes.empty() && std::all_of(a, a + n_a, passes) && std::all_of(b, b + n_b, passes))
     return Pair::PASSES;
-  if (m_seam_class.empty()) return Pair::FREE;
+  if (m_seam_class.empty())
+    return Pair::FREE;
   Pair kind = Pair::FREE;
   for (int i = 0; i < n_a; ++i)
     for (int j = 0; j < n_b; ++j) {
       const int c = m_seam_class[a[i]];
-      if (c < 0 || c != m_seam_class[b[j]]) continue;
-      if (m_closed[c]) return Pair::PASSES;
+      if (c < 0 || c != m_seam_class[b[j]])
+        continue;
+      if (m_closed[c])
+        return Pair::PASSES;
       kind = Pair::OPEN_SEAM;
     }
   return kind;
@@ -71,9 +76,12 @@ void SelfContactEffect::find_closed_seams(const std::vector<Vec3>& x) {
   std::fill(m_closed.begin(), m_closed.end(), 1);
   for (int i = 0; i < m_mesh.n_particles; ++i) {
     const int c = m_seam_class[i];
-    if (c < 0) continue;
-    if (first[c] < 0) first[c] = i;
-    else if ((x[i] - x[first[c]]).norm() > CLOSED_SEAM) m_closed[c] = 0;
+    if (c < 0)
+      continue;
+    if (first[c] < 0)
+      first[c] = i;
+    else if ((x[i] - x[first[c]]).norm() > CLOSED_SEAM)
+      m_closed[c] = 0;
   }
 }
 
@@ -83,14 +91,17 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
   m_proximity.update(x, m_radius);
   if (m_look_for_crossings) {
     m_crossings = collision::self_intersections(x, m_proximity.triangles(), m_proximity.tree());
-    if (!m_crossings.empty()) m_proximity.update(x, m_radius, m_crossings);
+    if (!m_crossings.empty())
+      m_proximity.update(x, m_radius, m_crossings);
     m_look_for_crossings = !m_crossings.empty();
   }
-  if (!m_seam_class.empty()) find_closed_seams(x);
+  if (!m_seam_class.empty())
+    find_closed_seams(x);
   m_pairs.clear();
   auto take = [&](const std::array<int, 4>& p, int n_first, bool is_edge, double distance) {
     const Pair kind = kind_of(p.data(), n_first, p.data() + n_first, 4 - n_first);
-    if (kind == Pair::PASSES) return;
+    if (kind == Pair::PASSES)
+      return;
     Near near{p, is_edge, distance};
     if (kind == Pair::FREE)
       near.reach = std::min(std::min(m_thickness[p[0]], m_thickness[p[1]]),
@@ -99,12 +110,14 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
   };
   for (const auto& pair : m_proximity.vertex_face()) {
     const Triangle& t = m_proximity.triangles()[pair.triangle];
-    if (!pair.exempt) take({pair.vertex, t[0], t[1], t[2]}, 1, false, pair.distance);
+    if (!pair.exempt)
+      take({pair.vertex, t[0], t[1], t[2]}, 1, false, pair.distance);
   }
   for (const auto& pair : m_proximity.edge_edge()) {
     const auto& a = m_proximity.topology().edges[pair.edge_a];
     const auto& b = m_proximity.topology().edges[pair.edge_b];
-    if (!pair.exempt) take({a[0], a[1], b[0], b[1]}, 2, true, pair.distance);
+    if (!pair.exempt)
+      take({a[0], a[1], b[0], b[1]}, 2, true, pair.distance);
   }
   m_searched_at = x;
   m_stale = false;
@@ -134,11 +147,14 @@ void SelfContactEffect::look(const std::vector<Vec3>& x) {
   m_stale = m_stale || !m_crossings.empty();
   for (std::size_t i = 0; !m_stale && i < x.size(); ++i)
     m_stale = (x[i] - m_searched_at[i]).squaredNorm() > used * used;
-  if (m_stale) search(x);
+  if (m_stale)
+    search(x);
   m_moved.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) m_moved[i] = (x[i] - m_searched_at[i]).norm();
+  for (std::size_t i = 0; i < x.size(); ++i)
+    m_moved[i] = (x[i] - m_searched_at[i]).norm();
   m_closing_stale = true;
-  for (auto& guarded : m_guarded_closing) guarded.clear();
+  for (auto& guarded : m_guarded_closing)
+    guarded.clear();
 }
 
 SelfContactEffect::Closest SelfContactEffect::closest(const Near& near,
@@ -153,8 +169,10 @@ SelfContactEffect::Closest SelfContactEffect::closest(const Near& near,
     c.weight = {1, -t.barycentric[0], -t.barycentric[1], -t.barycentric[2]};
   }
   c.first = c.second = Vec3::Zero();
-  for (int k = 0; k < near.n_first(); ++k) c.first += c.weight[k] * x[p[k]];
-  for (int k = near.n_first(); k < 4; ++k) c.second -= c.weight[k] * x[p[k]];
+  for (int k = 0; k < near.n_first(); ++k)
+    c.first += c.weight[k] * x[p[k]];
+  for (int k = near.n_first(); k < 4; ++k)
+    c.second -= c.weight[k] * x[p[k]];
   c.distance = (c.first - c.second).norm();
   return c;
 }
@@ -163,7 +181,8 @@ double SelfContactEffect::stiffness_of(const Near& near, const Closest& c,
                                        const std::vector<Vec3>& x) const {
   const auto& p = near.particle;
   double area = 0;
-  for (int k = 0; k < 4; ++k) area += std::abs(c.weight[k]) * m_mesh.area[p[k]];
+  for (int k = 0; k < 4; ++k)
+    area += std::abs(c.weight[k]) * m_mesh.area[p[k]];
   const double share = near.is_edge ? edge_edge_mollifier(x[p[1]] - x[p[0]], x[p[3]] - x[p[2]]) : 1;
   return 0.5 * share * m_options.stiffness_n_m3 * area;
 }
@@ -180,7 +199,8 @@ void SelfContactEffect::add(StepContext& context) {
   for (Near& near : m_pairs) {
     near.guarded = false;
     near.stiffness = -1;
-    if (near.distance - closing(near, m_moved) >= near.reach) continue;
+    if (near.distance - closing(near, m_moved) >= near.reach)
+      continue;
     const Closest c = closest(near, context.x);
     if (c.distance < 1e-12) {
       near.guarded = true;
@@ -206,7 +226,8 @@ void SelfContactEffect::add(StepContext& context) {
         last -= last.dot(e.normal) * e.normal;
         e.tangent_stiffness =
             m_options.friction * p.force / std::max(last.norm(), FULL_FRICTION_SLIDE);
-        if (m_again) e.force -= e.tangent_stiffness * (now - now.dot(e.normal) * e.normal);
+        if (m_again)
+          e.force -= e.tangent_stiffness * (now - now.dot(e.normal) * e.normal);
       }
       context.elements.push_back(e);
     }
@@ -250,7 +271,8 @@ bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pai
         Pair::PASSES)
       continue;
     const Closest c = closest(near, x);
-    if (c.distance < 1e-12 || !m_guarded_closing[is_edge].insert(pair).second) continue;
+    if (c.distance < 1e-12 || !m_guarded_closing[is_edge].insert(pair).second)
+      continue;
     guard(near, c, limits);
     added = true;
   }
@@ -261,7 +283,8 @@ bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pai
 bool SelfContactEffect::guard_near(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
                                    MotionLimits& limits) {
   m_length.resize(dx.size());
-  for (std::size_t i = 0; i < dx.size(); ++i) m_length[i] = dx[i].norm();
+  for (std::size_t i = 0; i < dx.size(); ++i)
+    m_length[i] = dx[i].norm();
   bool added = false;
   for (Near& near : m_pairs) {
     if (near.guarded ||
@@ -269,7 +292,8 @@ bool SelfContactEffect::guard_near(const std::vector<Vec3>& x, const std::vector
       continue;
     near.guarded = true;
     const Closest c = closest(near, x);
-    if (c.distance < 1e-12) continue; // no plane separates them
+    if (c.distance < 1e-12)
+      continue; // no plane separates them
     guard(near, c, limits);
     added = true;
   }
@@ -281,8 +305,10 @@ bool SelfContactEffect::add_separating_planes(const std::vector<Vec3>& x,
                                               bool last) {
   const bool more = guard_near(x, dx, limits);
   m_far.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) m_far[i] = m_length[i] > safe_move(i) + 1e-12;
-  if (std::find(m_far.begin(), m_far.end(), 1) == m_far.end()) return more;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    m_far[i] = m_length[i] > safe_move(i) + 1e-12;
+  if (std::find(m_far.begin(), m_far.end(), 1) == m_far.end())
+    return more;
   if (last || !m_crossings.empty()) { // of cloth that crosses nobody can tell which side is right
     for (std::size_t i = 0; i < x.size(); ++i)
       limits.max_displacement[i] = std::min(limits.max_displacement[i], safe_move(i));
@@ -296,12 +322,15 @@ bool SelfContactEffect::add_separating_planes(const std::vector<Vec3>& x,
 }
 
 double SelfContactEffect::energy(const std::vector<Vec3>& x) const {
-  if (m_pairs.empty()) return 0;
+  if (m_pairs.empty())
+    return 0;
   m_length.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) m_length[i] = (x[i] - m_searched_at[i]).norm();
+  for (std::size_t i = 0; i < x.size(); ++i)
+    m_length[i] = (x[i] - m_searched_at[i]).norm();
   double sum = 0;
   for (const Near& near : m_pairs) {
-    if (near.distance - closing(near, m_length) >= near.reach) continue;
+    if (near.distance - closing(near, m_length) >= near.reach)
+      continue;
     const Closest c = closest(near, x);
     if (c.distance < near.reach)
       sum += evaluate_contact_potential(c.distance, near.reach,

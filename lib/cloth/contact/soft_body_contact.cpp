@@ -21,7 +21,8 @@ SoftBodyContactEffect::SoftBodyContactEffect(const ClothMesh& mesh,
   const double share = options.on_edges ? 1.0 / 3 : 1; // of the area, to the particles
   for (int i = 0; i < mesh.n_particles; ++i)
     m_samples.push_back({.particle = {i, i, i}, .n = 1, .area = share * mesh.area[i]});
-  if (options.on_edges) add_edges_and_faces(mesh);
+  if (options.on_edges)
+    add_edges_and_faces(mesh);
 }
 
 /// A third of each triangle's area goes to its corners, a third to its three edges, a third to its
@@ -58,15 +59,18 @@ void SoftBodyContactEffect::declare(Couplings& couplings) const {
 
 void SoftBodyContactEffect::bind(const BlockMatrix& matrix) {
   m_slots.clear();
-  for (const auto& e : m_edges) m_slots.push_back({matrix.slot(e[0], e[1]), -1, -1});
+  for (const auto& e : m_edges)
+    m_slots.push_back({matrix.slot(e[0], e[1]), -1, -1});
   for (const auto& edges : m_face_edges) {
     std::array<int, 3>& slots = m_slots.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) slots[k] = m_slots[edges[k]][0];
+    for (std::size_t k = 0; k < 3; ++k)
+      slots[k] = m_slots[edges[k]][0];
   }
 }
 
 void SoftBodyContactEffect::body_moved(double largest_displacement) {
-  for (Sample& s : m_samples) s.clear -= largest_displacement;
+  for (Sample& s : m_samples)
+    s.clear -= largest_displacement;
 }
 
 void SoftBodyContactEffect::push(const Sample& sample, const int* slots,
@@ -87,7 +91,8 @@ void SoftBodyContactEffect::push(const Sample& sample, const int* slots,
     context.stiffness.add_diagonal(i, block);
   }
   const int n_slots = sample.n == 1 ? 0 : 2 * sample.n - 3;
-  for (int s = 0; s < n_slots; ++s) context.stiffness.add_off_diagonal(slots[s], block);
+  for (int s = 0; s < n_slots; ++s)
+    context.stiffness.add_off_diagonal(slots[s], block);
 }
 
 void SoftBodyContactEffect::add(StepContext& context) {
@@ -95,16 +100,20 @@ void SoftBodyContactEffect::add(StepContext& context) {
   for (std::size_t s = 0; s < m_samples.size(); ++s) {
     Sample& sample = m_samples[s];
     Vec3 at = context.x[sample.particle[0]];
-    for (int p = 1; p < sample.n; ++p) at += context.x[sample.particle[p]];
+    for (int p = 1; p < sample.n; ++p)
+      at += context.x[sample.particle[p]];
     at /= sample.n;
-    if (sample.clear - (at - sample.at).norm() > m_options.reach_m) continue;
+    if (sample.clear - (at - sample.at).norm() > m_options.reach_m)
+      continue;
     collision::SignedDistance d = m_body.signed_distance(at, FAR, sample.triangle);
     sample.at = at;
     sample.clear = FAR;
     if (d.triangle < 0) {
-      if (!m_body.is_inside(at)) continue;
+      if (!m_body.is_inside(at))
+        continue;
       d = m_body.signed_distance(at, FAR_INSIDE);
-      if (d.triangle < 0) continue;
+      if (d.triangle < 0)
+        continue;
     }
     sample.triangle = d.triangle;
     sample.clear = std::max(d.distance, 0.0);

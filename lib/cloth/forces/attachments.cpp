@@ -14,7 +14,8 @@ double AttachmentsEffect::energy(const std::vector<Vec3>& x) const {
 void AttachmentsEffect::add(StepContext& c) {
   for (const Attachment& a : m_attachments) {
     const Vec3& x = c.x[a.particle];
-    if ((a.anchor - x).norm() <= a.rest_length) continue;
+    if ((a.anchor - x).norm() <= a.rest_length)
+      continue;
     c.force[a.particle] += edge_spring_force(x, a.anchor, a.rest_length, a.stiffness_n_m);
     c.stiffness.add_diagonal(a.particle,
                              edge_spring_stiffness(x, a.anchor, a.rest_length, a.stiffness_n_m));

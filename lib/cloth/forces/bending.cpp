@@ -9,7 +9,8 @@ std::vector<HingeSlots> find_hinge_slots(const ClothMesh& mesh, const BlockMatri
     HingeSlots s;
     int at = 0;
     for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b) s[at++] = matrix.slot(hinge.particle[a], hinge.particle[b]);
+      for (int b = a + 1; b < 4; ++b)
+        s[at++] = matrix.slot(hinge.particle[a], hinge.particle[b]);
     slots.push_back(s);
   }
   return slots;
@@ -17,7 +18,8 @@ std::vector<HingeSlots> find_hinge_slots(const ClothMesh& mesh, const BlockMatri
 
 static Vec3 curvature(const Hinge& hinge, const std::vector<Vec3>& x) {
   Vec3 sum = Vec3::Zero();
-  for (int k = 0; k < 4; ++k) sum += hinge.coefficient[k] * x[hinge.particle[k]];
+  for (int k = 0; k < 4; ++k)
+    sum += hinge.coefficient[k] * x[hinge.particle[k]];
   return sum;
 }
 

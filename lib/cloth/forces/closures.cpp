@@ -5,12 +5,14 @@
 namespace sloper::cloth {
 
 void ClosuresEffect::declare(Couplings& couplings) const {
-  for (const Closure& c : m_closures) couplings.symmetric.push_back({c.i, c.j});
+  for (const Closure& c : m_closures)
+    couplings.symmetric.push_back({c.i, c.j});
 }
 
 void ClosuresEffect::bind(const BlockMatrix& matrix) {
   m_slots.clear();
-  for (const Closure& c : m_closures) m_slots.push_back(matrix.slot(c.i, c.j));
+  for (const Closure& c : m_closures)
+    m_slots.push_back(matrix.slot(c.i, c.j));
 }
 
 void ClosuresEffect::add(StepContext& context) {
@@ -18,7 +20,8 @@ void ClosuresEffect::add(StepContext& context) {
     const Closure& c = m_closures[k];
     const Vec3 d = context.x[c.j] - context.x[c.i];
     const double length = d.norm(), over = length - c.rest_length;
-    if (over <= 0) continue;
+    if (over <= 0)
+      continue;
     const Vec3 u = d / length;
     const double pull = c.stiffness_n_m * std::min(over, REACH);
     context.force[c.i] += pull * u;
@@ -37,7 +40,8 @@ double ClosuresEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
   for (const Closure& c : m_closures) {
     const double over = (x[c.j] - x[c.i]).norm() - c.rest_length;
-    if (over <= 0) continue;
+    if (over <= 0)
+      continue;
     sum += over < REACH ? 0.5 * c.stiffness_n_m * over * over
                         : c.stiffness_n_m * REACH * (over - 0.5 * REACH);
   }

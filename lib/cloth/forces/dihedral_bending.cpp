@@ -18,10 +18,12 @@ HingeAngle measure_hinge(const Hinge& hinge, const std::vector<Vec3>& x, bool wi
              &x3 = x[hinge.particle[3]];
   const Vec3 e = x1 - x0, a = e.cross(x2 - x0), b = (x3 - x0).cross(e);
   const double length = e.norm(), least = FLATTEST * length * length;
-  if (!(a.norm() > least) || !(b.norm() > least)) return angle;
+  if (!(a.norm() > least) || !(b.norm() > least))
+    return angle;
   angle.defined = true;
   angle.value = std::atan2(a.cross(b).dot(e) / length, a.dot(b));
-  if (!with_gradient) return angle;
+  if (!with_gradient)
+    return angle;
   const Vec3 ga = a / a.squaredNorm(), gb = b / b.squaredNorm();
   angle.gradient[2] = -length * ga;
   angle.gradient[3] = -length * gb;
@@ -58,7 +60,8 @@ double DihedralBendingEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
   for (std::size_t h = 0; h < m_mesh.hinges.size(); ++h) {
     const HingeAngle angle = measure_hinge(m_mesh.hinges[h], x, false);
-    if (!angle.defined) continue;
+    if (!angle.defined)
+      continue;
     const double off = angle.value - m_rest_angle[h];
     sum += 0.5 * m_stiffness[h] * off * off;
   }
@@ -86,7 +89,8 @@ void DihedralBendingEffect::add(StepContext& c) {
   for (std::size_t h = 0; h < m_mesh.hinges.size(); ++h) {
     const Hinge& hinge = m_mesh.hinges[h];
     const HingeAngle angle = measure_hinge(hinge, c.x, true);
-    if (!angle.defined) continue;
+    if (!angle.defined)
+      continue;
     const double moment = m_stiffness[h] * (angle.value - m_rest_angle[h]),
                  k = m_stiffness[h] * (1 + damping);
     add_hinge(c, hinge, m_slots[h], angle, moment, k);

@@ -16,7 +16,8 @@ double edge_spring_energy(const Vec3& xi, const Vec3& xj, double rest_length, do
 Vec3 edge_spring_force(const Vec3& xi, const Vec3& xj, double rest_length, double stiffness) {
   const Vec3 d = xj - xi;
   const double length = d.norm();
-  if (length < SHORTEST) return Vec3::Zero();
+  if (length < SHORTEST)
+    return Vec3::Zero();
   return stiffness * (length - rest_length) / length * d;
 }
 
@@ -24,10 +25,12 @@ Mat3 edge_spring_stiffness(const Vec3& xi, const Vec3& xj, double rest_length, d
                            bool clamp) {
   const Vec3 d = xj - xi;
   const double length = d.norm();
-  if (length < SHORTEST) return stiffness * Mat3::Identity();
+  if (length < SHORTEST)
+    return stiffness * Mat3::Identity();
   const Vec3 u = d / length;
   double side = 1 - rest_length / length;
-  if (clamp) side = std::max(side, 0.0);
+  if (clamp)
+    side = std::max(side, 0.0);
   return stiffness * (side * Mat3::Identity() + (1 - side) * u * u.transpose());
 }
 
@@ -38,7 +41,8 @@ void add_edge_springs(const ClothMesh& mesh, const std::vector<Vec3>& x, double 
     const EdgeSpring& spring = mesh.springs[s];
     const Vec3 d = x[spring.j] - x[spring.i];
     const double length = d.norm();
-    if (length < SHORTEST) continue;
+    if (length < SHORTEST)
+      continue;
     const Vec3 u = d / length;
     const Vec3 f = spring.stiffness * (length - spring.rest_length) * u;
     force[spring.i] += f;
@@ -59,7 +63,8 @@ void EdgeSpringEffect::add_indefinite_part(const std::vector<Vec3>& x,
     const EdgeSpring& spring = m_mesh.springs[s];
     const Vec3 d = x[spring.j] - x[spring.i];
     const double length = d.norm();
-    if (length < SHORTEST || length >= spring.rest_length) continue;
+    if (length < SHORTEST || length >= spring.rest_length)
+      continue;
     const double side = (1 - spring.rest_length / length) * spring.stiffness;
     Mat3 block = -side / (length * length) * d * d.transpose();
     block.diagonal().array() += side;
@@ -77,12 +82,14 @@ double edge_springs_energy(const ClothMesh& mesh, const std::vector<Vec3>& x) {
 }
 
 void EdgeSpringEffect::declare(Couplings& couplings) const {
-  for (const EdgeSpring& s : m_mesh.springs) couplings.symmetric.push_back({s.i, s.j});
+  for (const EdgeSpring& s : m_mesh.springs)
+    couplings.symmetric.push_back({s.i, s.j});
 }
 
 void EdgeSpringEffect::bind(const BlockMatrix& matrix) {
   m_slots.clear();
-  for (const EdgeSpring& s : m_mesh.springs) m_slots.push_back(matrix.slot(s.i, s.j));
+  for (const EdgeSpring& s : m_mesh.springs)
+    m_slots.push_back(matrix.slot(s.i, s.j));
 }
 
 } // namespace sloper::cloth

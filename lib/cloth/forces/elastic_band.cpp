@@ -6,12 +6,14 @@
 namespace sloper::cloth {
 
 void ElasticBandEffect::declare(Couplings& couplings) const {
-  for (const BandLink& l : m_links) couplings.symmetric.push_back({l.i, l.j});
+  for (const BandLink& l : m_links)
+    couplings.symmetric.push_back({l.i, l.j});
 }
 
 void ElasticBandEffect::bind(const BlockMatrix& matrix) {
   m_slots.clear();
-  for (const BandLink& l : m_links) m_slots.push_back(matrix.slot(l.i, l.j));
+  for (const BandLink& l : m_links)
+    m_slots.push_back(matrix.slot(l.i, l.j));
 }
 
 double ElasticBandEffect::tension(std::size_t k, const std::vector<Vec3>& x) const {
@@ -31,7 +33,8 @@ double ElasticBandEffect::energy(const std::vector<Vec3>& x) const {
 void ElasticBandEffect::add(StepContext& c) {
   for (std::size_t k = 0; k < m_links.size(); ++k) {
     const BandLink& l = m_links[k];
-    if ((c.x[l.j] - c.x[l.i]).norm() <= l.rest_length) continue;
+    if ((c.x[l.j] - c.x[l.i]).norm() <= l.rest_length)
+      continue;
     const double stiffness = l.strength_n / l.rest_length;
     const Vec3 force = edge_spring_force(c.x[l.i], c.x[l.j], l.rest_length, stiffness);
     const Mat3 block = edge_spring_stiffness(c.x[l.i], c.x[l.j], l.rest_length, stiffness);

@@ -83,7 +83,8 @@ void MembraneEffect::add(StepContext& context) {
 void MembraneEffect::add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
   for (const TriangleMap& m : m_maps) {
     const Mat2 pushing = part_of(stress_of(m, m.u(x), m.v(x)), false);
-    if (pushing.isZero(0)) continue;
+    if (pushing.isZero(0))
+      continue;
     for (int k = 0; k < 3; ++k) {
       const Vec2 d = pushing * Vec2(m.du[k], m.dv[k]);
       const int l = (k + 1) % 3;

@@ -11,7 +11,8 @@ namespace {
 /// Index of `value` in `list`, where it is added if it is not there.
 Eigen::Index place_of(std::vector<int>& list, int value) {
   const auto found = std::find(list.begin(), list.end(), value);
-  if (found != list.end()) return found - list.begin();
+  if (found != list.end())
+    return found - list.begin();
   list.push_back(value);
   return static_cast<Eigen::Index>(list.size()) - 1;
 }
@@ -26,7 +27,8 @@ OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
     m_stencils.push_back(stencil_of(plate));
     const Stencil& s = m_stencils.back();
     const bool constant = !m_rest_angle && plate.soft_share <= 0;
-    if (!constant) continue;
+    if (!constant)
+      continue;
     const auto n = static_cast<Eigen::Index>(s.particle.size());
     for (Eigen::Index a = 0; a < n; ++a)
       for (Eigen::Index b = a; b < n; ++b) {
@@ -35,7 +37,8 @@ OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
       }
   }
   keep_sums(std::move(pairs));
-  if (m_rest_angle) sign_lengths();
+  if (m_rest_angle)
+    sign_lengths();
 }
 
 /// The particles of a plate's hinges, and what their places say of its curvature.
@@ -43,7 +46,8 @@ OrthotropicBendingEffect::Stencil
 OrthotropicBendingEffect::stencil_of(const BendingPlate& plate) const {
   Stencil s;
   for (int h : plate.hinge)
-    for (int p : m_mesh.hinges[h].particle) place_of(s.particle, p);
+    for (int p : m_mesh.hinges[h].particle)
+      place_of(s.particle, p);
   const auto m = static_cast<Eigen::Index>(plate.hinge.size());
   const auto n = static_cast<Eigen::Index>(s.particle.size());
   s.coefficient = Eigen::MatrixXd::Zero(m, n);
@@ -63,8 +67,10 @@ void OrthotropicBendingEffect::keep_sums(std::vector<Pair> pairs) {
   });
   for (const Pair& p : pairs) {
     const bool again = !m_pairs.empty() && m_pairs.back().i == p.i && m_pairs.back().j == p.j;
-    if (again) m_pairs.back().stiffness += p.stiffness;
-    else m_pairs.push_back(p);
+    if (again)
+      m_pairs.back().stiffness += p.stiffness;
+    else
+      m_pairs.push_back(p);
   }
 }
 
@@ -87,11 +93,14 @@ void OrthotropicBendingEffect::declare(Couplings& couplings) const {
   if (m_rest_angle)
     for (const Hinge& hinge : m_mesh.hinges)
       for (int a = 0; a < 4; ++a)
-        for (int b = a + 1; b < 4; ++b) pairs.push_back({hinge.particle[a], hinge.particle[b]});
+        for (int b = a + 1; b < 4; ++b)
+          pairs.push_back({hinge.particle[a], hinge.particle[b]});
   for (const Pair& p : m_pairs)
-    if (p.i != p.j) pairs.push_back({p.i, p.j});
+    if (p.i != p.j)
+      pairs.push_back({p.i, p.j});
   for (std::size_t k = 0; k < m_plates.size(); ++k) {
-    if (!m_rest_angle && is_constant(k)) continue;
+    if (!m_rest_angle && is_constant(k))
+      continue;
     const std::vector<int>& particle = m_stencils[k].particle;
     for (std::size_t a = 0; a < particle.size(); ++a)
       for (std::size_t b = a + 1; b < particle.size(); ++b)
@@ -100,13 +109,16 @@ void OrthotropicBendingEffect::declare(Couplings& couplings) const {
 }
 
 void OrthotropicBendingEffect::bind(const BlockMatrix& matrix) {
-  if (m_rest_angle) m_hinge_slots = find_hinge_slots(m_mesh, matrix);
+  if (m_rest_angle)
+    m_hinge_slots = find_hinge_slots(m_mesh, matrix);
   m_pair_slots.clear();
-  for (const Pair& p : m_pairs) m_pair_slots.push_back(p.i == p.j ? -1 : matrix.slot(p.i, p.j));
+  for (const Pair& p : m_pairs)
+    m_pair_slots.push_back(p.i == p.j ? -1 : matrix.slot(p.i, p.j));
   for (std::size_t k = 0; k < m_plates.size(); ++k) {
     Stencil& s = m_stencils[k];
     s.slot.clear();
-    if (!m_rest_angle && is_constant(k)) continue;
+    if (!m_rest_angle && is_constant(k))
+      continue;
     for (std::size_t a = 0; a < s.particle.size(); ++a)
       for (std::size_t b = a + 1; b < s.particle.size(); ++b)
         s.slot.push_back(matrix.slot(s.particle[a], s.particle[b]));
@@ -114,7 +126,8 @@ void OrthotropicBendingEffect::bind(const BlockMatrix& matrix) {
 }
 
 double OrthotropicBendingEffect::energy(const std::vector<Vec3>& x) const {
-  if (m_rest_angle) return m_mesh.bend_scale * energy_of_angles(x);
+  if (m_rest_angle)
+    return m_mesh.bend_scale * energy_of_angles(x);
   double sum = 0;
   Eigen::Matrix<double, Eigen::Dynamic, 3> q;
   for (std::size_t k = 0; k < m_plates.size(); ++k) {
@@ -147,7 +160,8 @@ void OrthotropicBendingEffect::add(StepContext& c) {
     c.stiffness.add_isotropic(m_pair_slots[e], k * (1 + damping));
   }
   for (std::size_t k = 0; k < m_plates.size(); ++k)
-    if (!is_constant(k)) add_plate(c, k, damping);
+    if (!is_constant(k))
+      add_plate(c, k, damping);
 }
 
 void OrthotropicBendingEffect::add_plate(StepContext& c, std::size_t plate, double damping) {
@@ -181,7 +195,8 @@ double OrthotropicBendingEffect::energy_of_angles(const std::vector<Vec3>& x) co
              q[plate.hinge[a]] * q[plate.hinge[b]];
     sum += plate.energy(s);
   }
-  for (std::size_t h = 0; h < q.size(); ++h) sum += 0.5 * m_mesh.hinges[h].firmness * q[h] * q[h];
+  for (std::size_t h = 0; h < q.size(); ++h)
+    sum += 0.5 * m_mesh.hinges[h].firmness * q[h] * q[h];
   return sum;
 }
 
@@ -189,9 +204,11 @@ void OrthotropicBendingEffect::add_angles(StepContext& c, double damping) {
   std::vector<HingeAngle> angle(m_mesh.hinges.size());
   for (std::size_t h = 0; h < angle.size(); ++h)
     angle[h] = measure_hinge(m_mesh.hinges[h], c.x, true);
-  for (std::size_t k = 0; k < m_plates.size(); ++k) add_angles_of_plate(c, k, angle, damping);
+  for (std::size_t k = 0; k < m_plates.size(); ++k)
+    add_angles_of_plate(c, k, angle, damping);
   for (std::size_t h = 0; h < angle.size(); ++h)
-    if (m_mesh.hinges[h].firmness > 0) add_firmness(c, h, angle[h], damping);
+    if (m_mesh.hinges[h].firmness > 0)
+      add_firmness(c, h, angle[h], damping);
 }
 
 /// Gauss-Newton: the second derivatives of the angles are left out. @param angle  of every hinge

@@ -15,8 +15,10 @@ void PressureEffect::add(StepContext& c) {
 
 double PressureEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
-  for (const Triangle& t : m_triangles) sum -= m_pressure / 6 * x[t[0]].dot(x[t[1]].cross(x[t[2]]));
-  for (std::size_t i = 0; i < m_rim.size(); ++i) sum += m_rim[i].dot(x[i]);
+  for (const Triangle& t : m_triangles)
+    sum -= m_pressure / 6 * x[t[0]].dot(x[t[1]].cross(x[t[2]]));
+  for (std::size_t i = 0; i < m_rim.size(); ++i)
+    sum += m_rim[i].dot(x[i]);
   return sum;
 }
 

@@ -6,7 +6,8 @@ namespace sloper::cloth {
 
 void SewingSpringEffect::bind(const BlockMatrix& matrix) {
   m_slots.clear();
-  for (const auto& s : m_stitches) m_slots.push_back(matrix.slot(s[0], s[1]));
+  for (const auto& s : m_stitches)
+    m_slots.push_back(matrix.slot(s[0], s[1]));
 }
 
 void SewingSpringEffect::add(StepContext& c) {
@@ -38,7 +39,8 @@ SewingSpringEffect::Gap SewingSpringEffect::widest(const std::vector<Vec3>& x) c
   Gap widest;
   for (const auto& [i, j] : m_stitches) {
     const double length = (x[j] - x[i]).norm();
-    if (length > widest.length) widest = {length, 0.5 * (x[i] + x[j])};
+    if (length > widest.length)
+      widest = {length, 0.5 * (x[i] + x[j])};
   }
   return widest;
 }

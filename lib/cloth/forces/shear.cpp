@@ -24,7 +24,8 @@ std::vector<ShearTriangle> make_shear(const ClothMesh& mesh) {
 
 void find_slots(std::vector<ShearTriangle>& shear, const BlockMatrix& matrix) {
   for (ShearTriangle& s : shear)
-    for (int k = 0; k < 3; ++k) s.slots[k] = matrix.slot(s.particle[k], s.particle[(k + 1) % 3]);
+    for (int k = 0; k < 3; ++k)
+      s.slots[k] = matrix.slot(s.particle[k], s.particle[(k + 1) % 3]);
 }
 
 static void images(const ShearTriangle& s, const std::vector<Vec3>& x, Vec3& wu, Vec3& wv) {
@@ -68,7 +69,8 @@ void add_shear(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>&
 
 void ShearEffect::declare(Couplings& couplings) const {
   for (const ShearTriangle& s : m_shear)
-    for (int k = 0; k < 3; ++k) couplings.full.push_back({s.particle[k], s.particle[(k + 1) % 3]});
+    for (int k = 0; k < 3; ++k)
+      couplings.full.push_back({s.particle[k], s.particle[(k + 1) % 3]});
 }
 
 void ShearEffect::add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {

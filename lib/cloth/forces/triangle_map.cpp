@@ -25,7 +25,8 @@ static std::array<Vec2, 3> rest_shape(const ClothMesh& mesh, const RestTriangle&
   for (int k = 0; k < 3; ++k) {
     const Vec2 e = t.flat[(k + 1) % 3] - t.flat[k];
     double length = rest_length(mesh, t.particle[k], t.particle[(k + 1) % 3]);
-    if (length < 0) length = e.norm();
+    if (length < 0)
+      length = e.norm();
     rows.row(k) << e.x() * e.x(), 2 * e.x() * e.y(), e.y() * e.y();
     squares[k] = length * length;
     ratio += length / e.norm() / 3;
@@ -59,12 +60,14 @@ std::vector<TriangleMap> make_triangle_maps(const ClothMesh& mesh) {
 
 void declare_pairs(const std::vector<TriangleMap>& maps, std::vector<std::array<int, 2>>& pairs) {
   for (const TriangleMap& m : maps)
-    for (int k = 0; k < 3; ++k) pairs.push_back({m.particle[k], m.particle[(k + 1) % 3]});
+    for (int k = 0; k < 3; ++k)
+      pairs.push_back({m.particle[k], m.particle[(k + 1) % 3]});
 }
 
 void find_slots(std::vector<TriangleMap>& maps, const BlockMatrix& matrix) {
   for (TriangleMap& m : maps)
-    for (int k = 0; k < 3; ++k) m.slots[k] = matrix.slot(m.particle[k], m.particle[(k + 1) % 3]);
+    for (int k = 0; k < 3; ++k)
+      m.slots[k] = matrix.slot(m.particle[k], m.particle[(k + 1) % 3]);
 }
 
 } // namespace sloper::cloth

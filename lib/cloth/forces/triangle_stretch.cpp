@@ -50,7 +50,8 @@ void TriangleStretchEffect::add(StepContext& c) {
         continue;
       }
       const Vec3 along = w / length, pull = k * (length - rest) * along;
-      for (int i = 0; i < 3; ++i) c.force[m.particle[i]] -= d[i] * pull;
+      for (int i = 0; i < 3; ++i)
+        c.force[m.particle[i]] -= d[i] * pull;
       const double across = k * std::max(1 - rest / length, 0.0);
       block[side] = (k * (1 + fabric.damping_s / c.h) - across) * along * along.transpose();
       block[side].diagonal().array() += across;
@@ -70,14 +71,16 @@ void TriangleStretchEffect::add_indefinite_part(const std::vector<Vec3>& x,
       const double rest = side ? m_shrink[f].warp : m_shrink[f].weft;
       const Vec3 w = side ? m.v(x) : m.u(x);
       const double length = w.norm();
-      if (length < LEAST_STRETCH || length >= rest) continue;
+      if (length < LEAST_STRETCH || length >= rest)
+        continue;
       squeezed = true;
       const double across =
           m.area * (side ? fabric.stretch_warp_n_m : fabric.stretch_weft_n_m) * (1 - rest / length);
       block[side] = -across / (length * length) * w * w.transpose();
       block[side].diagonal().array() += across;
     }
-    if (squeezed) add_blocks(m, block, stiffness);
+    if (squeezed)
+      add_blocks(m, block, stiffness);
   }
 }
 

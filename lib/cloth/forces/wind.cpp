@@ -12,7 +12,8 @@ void WindEffect::begin_step(const std::vector<Vec3>& x, double h) {
   if (m_last_x.size() == x.size())
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Vec3 v = (x[i] - m_last_x[i]) / h;
-      if (v.norm() < FASTEST) m_velocity[i] = v;
+      if (v.norm() < FASTEST)
+        m_velocity[i] = v;
     }
   m_last_x = x;
 }
@@ -23,7 +24,8 @@ void WindEffect::add(StepContext& c) {
   for (const Triangle& t : m_triangles) {
     const Vec3 cross = (c.x[t[1]] - c.x[t[0]]).cross(c.x[t[2]] - c.x[t[0]]);
     const double twice = cross.norm();
-    if (twice < 1e-14) continue;
+    if (twice < 1e-14)
+      continue;
     const Vec3 n = cross / twice;
     const Vec3 q =
         m_options.velocity - (m_velocity[t[0]] + m_velocity[t[1]] + m_velocity[t[2]]) / 3;
@@ -43,7 +45,8 @@ void WindEffect::add(StepContext& c) {
 
 double WindEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
-  for (std::size_t i = 0; i < m_push.size(); ++i) sum -= m_push[i].dot(x[i]);
+  for (std::size_t i = 0; i < m_push.size(); ++i)
+    sum -= m_push[i].dot(x[i]);
   return sum;
 }
 

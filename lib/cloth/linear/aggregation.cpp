@@ -23,7 +23,8 @@ constexpr int SOFT_SOLVE_ITERATIONS = 5; // iterations of a solve that reached i
 /// all around.
 std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagonal, int& count) {
   std::vector<double> size(a.rows);
-  for (int i = 0; i < a.rows; ++i) size[i] = diagonal[i].norm();
+  for (int i = 0; i < a.rows; ++i)
+    size[i] = diagonal[i].norm();
   auto strong = [&](int i, int k) {
     return a.column[k] != i && a.value[k].squaredNorm() > STRENGTH_THRESHOLD * STRENGTH_THRESHOLD *
                                                               size[i] * size[a.column[k]];
@@ -38,15 +39,18 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
         alone[i] = 0;
         is_free = is_free && of[a.column[k]] < 0;
       }
-    if (!is_free || alone[i]) continue;
+    if (!is_free || alone[i])
+      continue;
     of[i] = count;
     for (int k = a.start[i]; k < a.start[i + 1]; ++k)
-      if (strong(i, k)) of[a.column[k]] = count;
+      if (strong(i, k))
+        of[a.column[k]] = count;
     ++count;
   }
   const std::vector<int> roots = of;
   for (int i = 0; i < a.rows; ++i) {
-    if (of[i] >= 0 || alone[i]) continue;
+    if (of[i] >= 0 || alone[i])
+      continue;
     double best = 0;
     for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
       const double s = a.value[k].squaredNorm();
@@ -55,7 +59,8 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
         of[i] = roots[a.column[k]];
       }
     }
-    if (of[i] < 0) of[i] = count++;
+    if (of[i] < 0)
+      of[i] = count++;
   }
   return of;
 }
@@ -74,17 +79,19 @@ void prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, const s
     const int begin = p.start.back();
     for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
       const int j = of[a.column[k]];
-      if (j < 0) continue;
+      if (j < 0)
+        continue;
       if (where[j] < begin) {
         where[j] = static_cast<int>(p.column.size());
         p.column.push_back(j);
         p.value.push_back(Mat3::Zero());
       }
       Mat3 smoother = -omega * d_inverse[i] * a.value[k];
-      if (a.column[k] == i) smoother += Mat3::Identity();
+      if (a.column[k] == i)
+        smoother += Mat3::Identity();
       p.value[where[j]] += smoother;
     }
-    p.start.push_back(static_cast<int>(p.column.size()));
+    p.start.push_back(std::ssize(p.column));
   }
 }
 
@@ -96,7 +103,8 @@ void Aggregation::pull_contacts(const std::vector<Float4>& x) {
     for (std::size_t e = begin; e < end; ++e) {
       const FloatContact& c = m_contacts[e];
       Float4 s = Float4::all(0);
-      for (int k = 0; k < 4; ++k) s = s + Float4::all(c.weight[k]) * x[c.particle[k]];
+      for (int k = 0; k < 4; ++k)
+        s = s + Float4::all(c.weight[k]) * x[c.particle[k]];
       const Float4 along = c.normal * s;
       const Float4 dot = lane<0>(along) + lane<1>(along) + lane<2>(along);
       m_contact_pull[e] = Float4::all(c.tangent_stiffness) * s +
@@ -108,8 +116,10 @@ void Aggregation::pull_contacts(const std::vector<Float4>& x) {
 /// put(i, row i of the level's matrix times x) for all rows, contacts included, on all threads.
 template<class Put>
 void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, const Put& put) {
-  if (l > 0) m_levels[l].a.multiply(x, put);
-  else multiply_finest(m_levels[0].a, x, put);
+  if (l > 0)
+    m_levels[l].a.multiply(x, put);
+  else
+    multiply_finest(m_levels[0].a, x, put);
 }
 
 /// Likewise with `rows` and the contacts.
@@ -138,8 +148,10 @@ void Aggregation::copy_finest(const LinearSystem& system) {
   refill(system.matrix, finest.a);
   m_has_whole = system.whole != nullptr;
   if (m_has_whole) {
-    if (m_whole.rows() != system.whole->size()) m_whole = to_float(*system.whole);
-    else refill(*system.whole, m_whole);
+    if (m_whole.rows() != system.whole->size())
+      m_whole = to_float(*system.whole);
+    else
+      refill(*system.whole, m_whole);
   }
   m_index = &system.index;
   m_contacts.clear();
@@ -157,7 +169,8 @@ void Aggregation::copy_finest(const LinearSystem& system) {
   }
   m_contact_pull.resize(m_contacts.size());
   parallel_for(finest.d_inverse.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
   });
 }
 
@@ -174,7 +187,8 @@ void Aggregation::estimate_lambda(std::size_t l, int iterations) {
   for (int it = 0; it < iterations; ++it) {
     const Float4 scale =
         Float4::all(static_cast<float>(1 / std::sqrt(std::max(dot(e, e, m_part), 1e-30))));
-    for (Float4& v : e) v = scale * v;
+    for (Float4& v : e)
+      v = scale * v;
     multiply(l, e, [&](std::size_t i, Float4 row) { level.t[i] = level.d_inverse[i] * row; });
     std::swap(e, level.t);
     lambda = std::sqrt(dot(e, e, m_part));
@@ -193,7 +207,8 @@ void Aggregation::build(const LinearSystem& system) {
     const Mat3 k = e.stiffness();
     for (int c = 0; c < e.n; ++c)
       for (int s = a.start[e.particle[c]]; s < a.start[e.particle[c] + 1]; ++s)
-        if (a.column[s] == e.particle[c]) a.value[s] += e.weight[c] * e.weight[c] * k;
+        if (a.column[s] == e.particle[c])
+          a.value[s] += e.weight[c] * e.weight[c] * k;
   }
   for (;;) {
     Level& fine = m_levels.back();
@@ -204,14 +219,18 @@ void Aggregation::build(const LinearSystem& system) {
       d_inverse[i] = diagonal[i].inverse();
       fine.d_inverse[i] = to_float(d_inverse[i]);
     }
-    for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d}) v->assign(a.rows, Float4::all(0));
+    for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d})
+      v->assign(a.rows, Float4::all(0));
     fine.a = m_levels.size() == 1 ? to_float(system.matrix) : to_float(a);
-    if (m_levels.size() == 1) copy_finest(system); // which has the contacts apart
-    if (a.rows <= COARSEST_ROWS || m_levels.size() > 8) break;
+    if (m_levels.size() == 1)
+      copy_finest(system); // which has the contacts apart
+    if (a.rows <= COARSEST_ROWS || m_levels.size() > 8)
+      break;
     estimate_lambda(m_levels.size() - 1, 8);
     int count = 0;
     const std::vector<int> of = aggregates(a, diagonal, count);
-    if (count == 0 || count > a.rows * 3 / 4) break;
+    if (count == 0 || count > a.rows * 3 / 4)
+      break;
     prolongator(a, d_inverse, of, count, 4.0 / 3.0 / fine.lambda, p);
     transpose(p, pt);
     fine.p = to_float(p);
@@ -230,14 +249,16 @@ void Aggregation::build(const LinearSystem& system) {
     m_coarsest.compute(dense);
     m_coarsened = m_coarsest.info() == Eigen::Success;
   }
-  if (!m_coarsened) m_levels.resize(1); // plain block Jacobi
+  if (!m_coarsened)
+    m_levels.resize(1); // plain block Jacobi
   m_coarse_vector.resize(3 * n);
   m_age = 0;
 }
 
 double Aggregation::complexity() const {
   double blocks = 0;
-  for (const Level& level : m_levels) blocks += static_cast<double>(level.a.blocks());
+  for (const Level& level : m_levels)
+    blocks += static_cast<double>(level.a.blocks());
   return m_levels.empty() ? 1 : blocks / static_cast<double>(m_levels[0].a.blocks());
 }
 
@@ -247,8 +268,10 @@ void Aggregation::update(const LinearSystem& system) {
   if (m_levels.empty() || !m_coarsened ||
       static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired)
     build(system);
-  else copy_finest(system);
-  if (m_age++ > 0) estimate_lambda(0, 2);
+  else
+    copy_finest(system);
+  if (m_age++ > 0)
+    estimate_lambda(0, 2);
 }
 
 bool Aggregation::renew(const LinearSystem& system, int iterations) {
@@ -261,7 +284,8 @@ bool Aggregation::renew(const LinearSystem& system, int iterations) {
 
 void Aggregation::report_iterations(int iterations) {
   m_last_iterations = iterations;
-  if (m_age == 1) m_iterations_when_fresh = iterations;
+  if (m_age == 1)
+    m_iterations_when_fresh = iterations;
 }
 
 /// Chebyshev of degree 2 for D^-1 A on [lambda / 4, lambda].
@@ -274,7 +298,8 @@ void Aggregation::smooth(std::size_t l, bool zero_start) {
   const Float4 first = Float4::all(1 / center);
   if (zero_start) {
     parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) z[i] = d[i] = first * (level.d_inverse[i] * r[i]);
+      for (std::size_t i = begin; i < end; ++i)
+        z[i] = d[i] = first * (level.d_inverse[i] * r[i]);
     });
   } else {
     multiply(l, z, [&](std::size_t i, Float4 row) {
@@ -314,26 +339,32 @@ void Aggregation::cycle(std::size_t l) {
 /// what that size was.
 double Aggregation::take_in(const std::vector<Vec3>& r) {
   double largest = 0;
-  for (const Vec3& v : r) largest = std::max(largest, v.cwiseAbs().maxCoeff());
-  if (largest == 0) largest = 1;
+  for (const Vec3& v : r)
+    largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  if (largest == 0)
+    largest = 1;
   const double shrink = 1 / largest;
   parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) m_levels[0].r[i] = to_float(Vec3(shrink * r[i]));
+    for (std::size_t i = begin; i < end; ++i)
+      m_levels[0].r[i] = to_float(Vec3(shrink * r[i]));
   });
   return largest;
 }
 
 static void hand_out(const std::vector<Float4>& from, double scale, std::vector<Vec3>& to) {
   parallel_for(from.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) to[i] = scale * to_double(from[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      to[i] = scale * to_double(from[i]);
   });
 }
 
 /// The finest level's z from its r; block Jacobi without a hierarchy.
 void Aggregation::precondition_finest() {
-  if (m_levels.size() > 1) return cycle(0);
+  if (m_levels.size() > 1)
+    return cycle(0);
   Level& finest = m_levels[0];
-  for (std::size_t i = 0; i < finest.r.size(); ++i) finest.z[i] = finest.d_inverse[i] * finest.r[i];
+  for (std::size_t i = 0; i < finest.r.size(); ++i)
+    finest.z[i] = finest.d_inverse[i] * finest.r[i];
 }
 
 void Aggregation::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
@@ -364,7 +395,8 @@ struct Aggregation::SingleSpace {
     const Float4 keep = Float4::all(static_cast<float>(beta));
     const std::vector<Float4>& z = a.m_levels[0].z;
     parallel_for(z.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) a.m_p[i] = z[i] + keep * a.m_p[i];
+      for (std::size_t i = begin; i < end; ++i)
+        a.m_p[i] = z[i] + keep * a.m_p[i];
     });
   }
   double multiply() {
@@ -396,13 +428,16 @@ struct Aggregation::SingleSpace {
 /// if the system recurs and they lead no farther than the radius.
 void Aggregation::deflate(const LinearSystem& system, const std::vector<Vec3>& r, double radius) {
   m_deflation.leave_out();
-  if (!system.recurs) return;
+  if (!system.recurs)
+    return;
   m_deflation.prepare(r.size(), [&](const std::vector<Float4>& x, std::vector<Float4>& y) {
     multiply_system(x, y);
   });
-  if (m_deflation.size() == 0) return;
+  if (m_deflation.size() == 0)
+    return;
   m_deflation.start(m_x, m_levels[0].r);
-  if (longest(m_x) < radius) return;
+  if (longest(m_x) < radius)
+    return;
   m_deflation.leave_out();
   m_x.assign(r.size(), Float4::all(0));
   take_in(r);
@@ -412,14 +447,16 @@ bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<
                                   CgTolerance tolerance, int max_iterations, double radius,
                                   std::vector<Vec3>& x, CgResult& result) {
   const double scale = take_in(r);
-  for (auto* v : {&m_x, &m_p, &m_q}) v->assign(r.size(), Float4::all(0));
+  for (auto* v : {&m_x, &m_p, &m_q})
+    v->assign(r.size(), Float4::all(0));
   const std::vector<Float4>& residual = m_levels[0].r;
   const double target2 = tolerance.residual * tolerance.residual * dot(residual, residual, m_part);
   deflate(system, r, radius / scale);
   const int before = result.iterations;
   conjugate_gradient_loop(SingleSpace{*this, system}, dot(residual, residual, m_part), target2,
                           tolerance.energy, max_iterations, radius / scale, result);
-  if (system.recurs && result.iterations >= before + SOFT_SOLVE_ITERATIONS) m_deflation.keep(m_x);
+  if (system.recurs && result.iterations >= before + SOFT_SOLVE_ITERATIONS)
+    m_deflation.keep(m_x);
   hand_out(m_x, scale, x);
   return true;
 }

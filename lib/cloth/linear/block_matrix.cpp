@@ -9,7 +9,8 @@ namespace sloper::cloth {
 /// Sorted, each once, the smaller index first; none of a particle with itself.
 static void tidy(std::vector<std::array<int, 2>>& pairs) {
   for (auto& p : pairs)
-    if (p[0] > p[1]) std::swap(p[0], p[1]);
+    if (p[0] > p[1])
+      std::swap(p[0], p[1]);
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   pairs.erase(
@@ -19,7 +20,8 @@ static void tidy(std::vector<std::array<int, 2>>& pairs) {
 
 /// Turns counts, each one place after its own, into where each row begins.
 static void sum_up(std::vector<int>& start) {
-  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  for (std::size_t i = 1; i < start.size(); ++i)
+    start[i] += start[i - 1];
 }
 
 BlockMatrix::BlockMatrix(int n, Couplings couplings)
@@ -45,7 +47,8 @@ void BlockMatrix::lay_out_full(const std::vector<std::array<int, 2>>& pairs) {
   }
   sum_up(m_row_start);
   m_lower_start.assign(static_cast<std::size_t>(m_n) + 1, 0);
-  for (int j : m_column) ++m_lower_start[j + 1];
+  for (int j : m_column)
+    ++m_lower_start[j + 1];
   sum_up(m_lower_start);
   m_lower.resize(m_column.size());
   std::vector<int> next(m_lower_start.begin(), m_lower_start.end() - 1);
@@ -62,7 +65,8 @@ void BlockMatrix::lay_out_full(const std::vector<std::array<int, 2>>& pairs) {
 void BlockMatrix::lay_out_isotropic(const std::vector<std::array<int, 2>>& pairs) {
   m_isotropic_start.assign(static_cast<std::size_t>(m_n) + 1, 0);
   for (const auto& p : pairs)
-    for (int i : p) ++m_isotropic_start[i + 1];
+    for (int i : p)
+      ++m_isotropic_start[i + 1];
   sum_up(m_isotropic_start);
   m_isotropic.resize(2 * pairs.size());
   std::vector<int> next(m_isotropic_start.begin(), m_isotropic_start.end() - 1);
@@ -75,11 +79,13 @@ void BlockMatrix::lay_out_isotropic(const std::vector<std::array<int, 2>>& pairs
 }
 
 int BlockMatrix::slot(int i, int j) const {
-  if (i > j) std::swap(i, j);
+  if (i > j)
+    std::swap(i, j);
   const auto first = m_column.begin() + m_row_start[i],
              last = m_column.begin() + m_row_start[i + 1];
   const auto found = std::lower_bound(first, last, j);
-  if (found != last && *found == j) return static_cast<int>(found - m_column.begin());
+  if (found != last && *found == j)
+    return static_cast<int>(found - m_column.begin());
   const auto begin = m_isotropic.begin() + m_isotropic_start[i],
              end = m_isotropic.begin() + m_isotropic_start[i + 1];
   const auto entry =
@@ -98,7 +104,8 @@ void BlockMatrix::set_zero() {
 
 void BlockMatrix::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
   parallel_for(x.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) y[i] = row_times(static_cast<int>(i), x);
+    for (std::size_t i = begin; i < end; ++i)
+      y[i] = row_times(static_cast<int>(i), x);
   });
 }
 

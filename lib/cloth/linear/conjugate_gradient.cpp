@@ -11,7 +11,8 @@ double LinearSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y,
   const BlockMatrix& a = whole ? *whole : matrix;
   pull.resize(elements.size());
   parallel_for(elements.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) pull[e] = elements[e].pull(x);
+    for (std::size_t e = begin; e < end; ++e)
+      pull[e] = elements[e].pull(x);
   });
   return parallel_sum(x.size(), ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
@@ -30,32 +31,38 @@ double LinearSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y,
 void BlockJacobi::update(const LinearSystem& system) {
   const int n = system.matrix.size();
   m_inverse.resize(n);
-  for (int i = 0; i < n; ++i) m_inverse[i] = system.matrix.diagonal(i);
+  for (int i = 0; i < n; ++i)
+    m_inverse[i] = system.matrix.diagonal(i);
   for (const ContactElement& e : system.elements) {
     const Mat3 a = e.stiffness();
-    for (int k = 0; k < e.n; ++k) m_inverse[e.particle[k]] += e.weight[k] * e.weight[k] * a;
+    for (int k = 0; k < e.n; ++k)
+      m_inverse[e.particle[k]] += e.weight[k] * e.weight[k] * a;
   }
   parallel_for(m_inverse.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) m_inverse[i] = m_inverse[i].inverse().eval();
+    for (std::size_t i = begin; i < end; ++i)
+      m_inverse[i] = m_inverse[i].inverse().eval();
   });
 }
 
 void BlockJacobi::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
-  for (std::size_t i = 0; i < r.size(); ++i) z[i].noalias() = m_inverse[i] * r[i];
+  for (std::size_t i = 0; i < r.size(); ++i)
+    z[i].noalias() = m_inverse[i] * r[i];
 }
 
 static double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
                   std::vector<double>& part) {
   return parallel_sum(a.size(), ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
-    for (std::size_t i = begin; i < end; ++i) sum += a[i].dot(b[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      sum += a[i].dot(b[i]);
     return sum;
   });
 }
 
 static double longest(const std::vector<Vec3>& v) {
   double most = 0;
-  for (const Vec3& p : v) most = std::max(most, p.squaredNorm());
+  for (const Vec3& p : v)
+    most = std::max(most, p.squaredNorm());
   return std::sqrt(most);
 }
 
@@ -73,7 +80,8 @@ struct DoubleSpace {
   }
   void turn(double beta) {
     parallel_for(x.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work.p[i] = work.z[i] + beta * work.p[i];
+      for (std::size_t i = begin; i < end; ++i)
+        work.p[i] = work.z[i] + beta * work.p[i];
     });
   }
   double multiply() { return system.multiply(work.p, work.q, work.pull, work.part); }
@@ -102,7 +110,8 @@ constexpr double FINEST_SHARE =
 bool falls(const std::vector<Vec3>& x, const std::vector<Vec3>& b,
            const std::vector<Vec3>& residual) {
   double twice = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) twice += x[i].dot(b[i] + residual[i]);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    twice += x[i].dot(b[i] + residual[i]);
   return twice > 0;
 }
 
@@ -112,13 +121,16 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
                             const std::vector<Vec3>& b, CgTolerance tolerance, int max_iterations,
                             std::vector<Vec3>& x, CgWork& work, double radius) {
   const std::size_t n = b.size();
-  for (auto* v : {&work.r, &work.z, &work.p, &work.q}) v->resize(n);
+  for (auto* v : {&work.r, &work.z, &work.p, &work.q})
+    v->resize(n);
   x.assign(n, Vec3::Zero());
   work.r = b;
-  if (!preconditioner.estimates_energy_error()) tolerance.energy = 0;
+  if (!preconditioner.estimates_energy_error())
+    tolerance.energy = 0;
   CgResult result;
   const double b_norm2 = dot(b, b, work.part);
-  if (b_norm2 == 0) return {0, 0, 0, true, false, false, false};
+  if (b_norm2 == 0)
+    return {0, 0, 0, true, false, false, false};
   const double target2 = tolerance.residual * tolerance.residual * b_norm2;
   double r_norm2 = b_norm2;
   while (result.iterations < max_iterations && r_norm2 > target2) {
@@ -126,9 +138,11 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
     if (!preconditioner.solve_in_single(system, work.r, {share, tolerance.energy}, max_iterations,
                                         radius - longest(x), work.z, result))
       break;
-    for (std::size_t i = 0; i < n; ++i) work.p[i] = x[i] + work.z[i];
+    for (std::size_t i = 0; i < n; ++i)
+      work.p[i] = x[i] + work.z[i];
     system.multiply(work.p, work.q, work.pull, work.part);
-    for (std::size_t i = 0; i < n; ++i) work.z[i] = b[i] - work.q[i];
+    for (std::size_t i = 0; i < n; ++i)
+      work.z[i] = b[i] - work.q[i];
     const double after2 = dot(work.z, work.z, work.part);
     const bool ended = result.bounded || result.near ||
                        result.iterations >= max_iterations; // by what lets the residual grow
@@ -141,7 +155,8 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
     r_norm2 = after2;
     std::swap(x, work.p);
     std::swap(work.r, work.z);
-    if (ended || !halved) break;
+    if (ended || !halved)
+      break;
   }
   if (!result.bounded && !result.near) {
     work.p.assign(n,

@@ -9,7 +9,8 @@ namespace sloper::cloth {
 static constexpr double LEAST_NEW_ENERGY = 1e-4;
 
 void Deflation::keep(const std::vector<Float4>& x) {
-  if (m_n_kept < MAX_BASIS) ++m_n_kept;
+  if (m_n_kept < MAX_BASIS)
+    ++m_n_kept;
   std::rotate(m_kept.begin(), m_kept.begin() + static_cast<long>(m_n_kept - 1),
               m_kept.begin() + static_cast<long>(m_n_kept));
   m_kept[0] = x;
@@ -24,7 +25,8 @@ Deflation::Shares Deflation::shares(const Vectors& of, const std::vector<Float4>
   });
   Shares sum{};
   for (const Shares& part : m_part)
-    for (std::size_t k = 0; k < m_n_basis; ++k) sum[k] += part[k];
+    for (std::size_t k = 0; k < m_n_basis; ++k)
+      sum[k] += part[k];
   return sum;
 }
 
@@ -33,7 +35,8 @@ void Deflation::take(const Vectors& from, const Shares& shares, std::vector<Floa
   parallel_for(v.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < m_n_basis; ++k) {
       const Float4 share = Float4::all(static_cast<float>(shares[k]));
-      for (std::size_t i = begin; i < end; ++i) v[i] = v[i] - share * from[k][i];
+      for (std::size_t i = begin; i < end; ++i)
+        v[i] = v[i] - share * from[k][i];
     }
   });
 }
@@ -48,7 +51,8 @@ bool Deflation::orthonormalise() {
   take(m_basis, had, newest);
   take(m_image, had, image);
   const double energy = dot(newest, image, m_sum);
-  if (!(before > 0 && energy > LEAST_NEW_ENERGY * before)) return false;
+  if (!(before > 0 && energy > LEAST_NEW_ENERGY * before))
+    return false;
   const Float4 scale = Float4::all(static_cast<float>(1 / std::sqrt(energy)));
   for (std::size_t i = 0; i < newest.size(); ++i) {
     newest[i] = scale * newest[i];
@@ -60,15 +64,18 @@ bool Deflation::orthonormalise() {
 void Deflation::start(std::vector<Float4>& x, std::vector<Float4>& r) {
   Shares best = shares(m_basis, r);
   take(m_image, best, r);
-  for (double& share : best) share = -share;
+  for (double& share : best)
+    share = -share;
   take(m_basis, best, x);
 }
 
 void Deflation::project(const std::vector<Float4>& r, std::vector<Float4>& z) {
-  if (m_n_basis == 0) return;
+  if (m_n_basis == 0)
+    return;
   Shares too_much = shares(m_image, z);
   const Shares missing = shares(m_basis, r);
-  for (std::size_t k = 0; k < m_n_basis; ++k) too_much[k] -= missing[k];
+  for (std::size_t k = 0; k < m_n_basis; ++k)
+    too_much[k] -= missing[k];
   take(m_basis, too_much, z);
 }
 

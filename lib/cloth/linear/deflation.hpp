@@ -31,12 +31,14 @@ public:
   /// sets y = A x
   template<class Multiply> void prepare(std::size_t rows, const Multiply& multiply) {
     m_n_basis = 0;
-    if (m_n_kept > 0 && m_kept[0].size() != rows) forget();
+    if (m_n_kept > 0 && m_kept[0].size() != rows)
+      forget();
     for (std::size_t k = 0; k < m_n_kept; ++k) {
       m_basis[m_n_basis] = m_kept[k];
       m_image[m_n_basis].resize(rows);
       multiply(m_basis[m_n_basis], m_image[m_n_basis]);
-      if (orthonormalise()) ++m_n_basis;
+      if (orthonormalise())
+        ++m_n_basis;
     }
   }
   /// W is nothing for this system.

@@ -42,7 +42,8 @@ void Factorisation::update(const LinearSystem& system) {
       lower.add(i, a.column()[k], a.value()[k]);
     for (int k = a.isotropic_start()[i]; k < a.isotropic_start()[i + 1]; ++k) {
       const auto [slot, column] = a.isotropic()[k];
-      if (column < i) lower.add(i, column, a.isotropic_value()[slot] * Mat3::Identity());
+      if (column < i)
+        lower.add(i, column, a.isotropic_value()[slot] * Mat3::Identity());
     }
   }
   for (const ContactElement& e : system.elements) {
@@ -52,7 +53,8 @@ void Factorisation::update(const LinearSystem& system) {
         const Mat3 block = e.weight[k] * e.weight[l] * stiffness;
         if (k != l && e.particle[k] == e.particle[l])
           lower.add(e.particle[k], e.particle[k], 2 * block);
-        else lower.add(e.particle[k], e.particle[l], block);
+        else
+          lower.add(e.particle[k], e.particle[l], block);
       }
   }
   m_solver.compute(lower.matrix());

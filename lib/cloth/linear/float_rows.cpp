@@ -29,8 +29,10 @@ FloatRows::FloatRows(const std::vector<int>& start, const std::vector<int>& colu
     : m_rows(static_cast<int>(start.size()) - 1), m_blocks(column.size()),
       m_numbers(symmetric ? 6 : 9) {
   group_rows(start, column, m_start, m_column);
-  if (isotropic_start.empty()) m_isotropic_start.assign(m_start.size(), 0);
-  else group_rows(isotropic_start, isotropic_column, m_isotropic_start, m_isotropic_column);
+  if (isotropic_start.empty())
+    m_isotropic_start.assign(m_start.size(), 0);
+  else
+    group_rows(isotropic_start, isotropic_column, m_isotropic_start, m_isotropic_column);
   m_value.resize(m_numbers * m_column.size());
   m_isotropic_value.resize(m_isotropic_column.size());
 }
@@ -87,7 +89,8 @@ template<bool SYMMETRIC> void times_narrow(const Group& group, const Float4* x, 
       sum[2] = sum[2] + a * pz;
     }
     transpose(sum[0], sum[1], sum[2], sum[3]);
-    for (int i = 0; i < 4; ++i) row[half + i] = sum[i];
+    for (int i = 0; i < 4; ++i)
+      row[half + i] = sum[i];
   }
 }
 
@@ -250,7 +253,8 @@ FloatRows to_float(const BlockMatrix& m) {
     start[i + 1] = start[i] + full_blocks(m, i);
     visit_row(m, i, [&](int, int j, const Mat3&) { column.push_back(j); });
   }
-  for (const BlockMatrix::Entry& e : m.isotropic()) isotropic_column.push_back(e.column);
+  for (const BlockMatrix::Entry& e : m.isotropic())
+    isotropic_column.push_back(e.column);
   FloatRows out(start, column, m.isotropic_start(), isotropic_column, m.all_symmetric());
   refill(m, out);
   return out;
@@ -272,8 +276,10 @@ void transpose(const BlockRows& a, BlockRows& t) {
   t.rows = a.columns;
   t.columns = a.rows;
   t.start.assign(t.rows + 1, 0);
-  for (int c : a.column) ++t.start[c + 1];
-  for (int i = 0; i < t.rows; ++i) t.start[i + 1] += t.start[i];
+  for (int c : a.column)
+    ++t.start[c + 1];
+  for (int i = 0; i < t.rows; ++i)
+    t.start[i + 1] += t.start[i];
   t.column.resize(a.column.size());
   t.value.resize(a.value.size());
   std::vector<int> at(t.start.begin(), t.start.end() - 1);
@@ -305,7 +311,8 @@ void product(const BlockRows& a, const BlockRows& b, BlockRows& c) {
       met_in[j] = i;
     });
   });
-  for (int i = 0; i < a.rows; ++i) c.start[i + 1] += c.start[i];
+  for (int i = 0; i < a.rows; ++i)
+    c.start[i + 1] += c.start[i];
   c.column.resize(c.start.back());
   c.value.resize(c.start.back());
   parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
@@ -331,7 +338,8 @@ std::vector<Mat3> block_diagonal(const BlockRows& a) {
   std::vector<Mat3> d(a.rows, Mat3::Zero());
   for (int i = 0; i < a.rows; ++i)
     for (int k = a.start[i]; k < a.start[i + 1]; ++k)
-      if (a.column[k] == i) d[i] += a.value[k];
+      if (a.column[k] == i)
+        d[i] += a.value[k];
   return d;
 }
 

@@ -70,7 +70,8 @@ public:
       for (std::size_t g = begin; g < end; ++g) {
         times(g, x.data(), row);
         const int first = static_cast<int>(g) * GROUP, last = std::min(first + GROUP, m_rows);
-        for (int i = first; i < last; ++i) put(static_cast<std::size_t>(i), row[i - first]);
+        for (int i = first; i < last; ++i)
+          put(static_cast<std::size_t>(i), row[i - first]);
       }
     });
   }

@@ -15,10 +15,12 @@ inline double dot(const std::vector<Float4>& a, const std::vector<Float4>& b, st
   double sum[3] = {};
   for (std::size_t first = begin; first < end; first += 8) {
     Float4 some = Float4::all(0);
-    for (std::size_t i = first; i < std::min(first + 8, end); ++i) some = some + a[i] * b[i];
+    for (std::size_t i = first; i < std::min(first + 8, end); ++i)
+      some = some + a[i] * b[i];
     alignas(16) float lane[4];
     some.store(lane);
-    for (int k = 0; k < 3; ++k) sum[k] += lane[k];
+    for (int k = 0; k < 3; ++k)
+      sum[k] += lane[k];
   }
   return sum[0] + sum[1] + sum[2];
 }

@@ -35,12 +35,14 @@ Vec3 common_displacement(const std::vector<Vec3>& predictor) {
     mean += c / static_cast<double>(predictor.size());
     longest = std::max(longest, c.norm());
   }
-  if (mean.norm() <= MOST_STAYS * longest) return median;
+  if (mean.norm() <= MOST_STAYS * longest)
+    return median;
   std::vector<double> part;
   for (int a = 0; a < 3; ++a) { // of what is carried at all: cloth that hangs free is not
     part.clear();
     for (const Vec3& c : predictor)
-      if (c != Vec3::Zero()) part.push_back(c[a]);
+      if (c != Vec3::Zero())
+        part.push_back(c[a]);
     median[a] = upper_median(part);
   }
   return median;
@@ -48,7 +50,8 @@ Vec3 common_displacement(const std::vector<Vec3>& predictor) {
 
 double longest_of(const std::vector<Vec3>& displacement) {
   double longest = 0;
-  for (const Vec3& w : displacement) longest = std::max(longest, w.norm());
+  for (const Vec3& w : displacement)
+    longest = std::max(longest, w.norm());
   return longest;
 }
 
@@ -71,13 +74,15 @@ void BodyMotion::predict_from_skin(const std::vector<Vec3>& displacement, double
       const collision::SignedDistance d = m_body.signed_distance(x[i], NOT_CARRIED, m_nearest[i]);
       m_nearest[i] = d.triangle;
       m_predictor[i] = time * m_solver.v()[i];
-      if (d.triangle < 0) continue;
+      if (d.triangle < 0)
+        continue;
       const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE),
                                     0.0, 1.0),
                    share = (1 - far) * (1 - far);
       const Triangle& t = m_body.mesh().triangles[d.triangle];
       m_predictor[i] *= 1 - share;
-      for (int k = 0; k < 3; ++k) m_predictor[i] += share * d.barycentric[k] * displacement[t[k]];
+      for (int k = 0; k < 3; ++k)
+        m_predictor[i] += share * d.barycentric[k] * displacement[t[k]];
     }
   });
   m_contact.push_predictor_off_skin(x, displacement, m_predictor);
@@ -94,12 +99,14 @@ std::vector<Vec3> BodyMotion::limit_predictor_by_self_ccd(double share,
   limits.max_displacement.assign(x.size(),
                                  std::numeric_limits<double>::infinity()); // of a longer step
   std::vector<Vec3> wanted = m_predictor;
-  for (Vec3& c : wanted) c = share * (c - common);
+  for (Vec3& c : wanted)
+    c = share * (c - common);
   std::vector<Vec3> limited = wanted;
   std::vector<char> held(x.size(), 0);
   limits.apply(x, limited, held);
   for (int round = 1; round <= MAX_CCD_ROUNDS; ++round) {
-    if (!m_self_contact->add_separating_planes(x, limited, limits, round == MAX_CCD_ROUNDS)) break;
+    if (!m_self_contact->add_separating_planes(x, limited, limits, round == MAX_CCD_ROUNDS))
+      break;
     limits.apply(x, limited, held);
   }
   for (std::size_t i = 0; i < limited.size(); ++i)
@@ -114,7 +121,8 @@ double BodyMotion::free_fraction(const std::vector<Vec3>& displacement, double l
                                  double time) {
   const std::vector<Vec3>& x = m_solver.x();
   predict_from_skin(displacement, time);
-  if (!m_self_contact) return m_contact.collision_free_step_fraction(x, displacement, m_predictor);
+  if (!m_self_contact)
+    return m_contact.collision_free_step_fraction(x, displacement, m_predictor);
   MotionLimits limits;
   limits.planes_translate = true;
   limits.reset(x.size());
@@ -137,7 +145,8 @@ double BodyMotion::free_fraction(const std::vector<Vec3>& displacement, double l
       best = share;
       best_predictor = std::move(limited);
     }
-    if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART) break;
+    if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART)
+      break;
   }
   m_predictor = std::move(best_predictor);
   return best;
@@ -154,7 +163,8 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
   for (int part = 1;; ++part) {
     const auto began = std::chrono::steady_clock::now();
     skin = m_body.mesh().positions;
-    for (std::size_t v = 0; v < displacement.size(); ++v) displacement[v] = target[v] - skin[v];
+    for (std::size_t v = 0; v < displacement.size(); ++v)
+      displacement[v] = target[v] - skin[v];
     const double longest = longest_of(displacement);
     if (part == 1) {
       m_last_asked = 1;
@@ -173,9 +183,11 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       for (std::size_t v = 0; v < displacement.size(); ++v)
         skin[v] = share < 1 ? Vec3(skin[v] + share * displacement[v]) : target[v];
       std::vector<Vec3> carried = m_predictor;
-      for (Vec3& c : carried) c *= share;
+      for (Vec3& c : carried)
+        c *= share;
       m_contact.move_body(skin, m_solver.x(), carried);
-      if (m_self_contact) m_self_contact->moved_by(common_displacement(carried));
+      if (m_self_contact)
+        m_self_contact->moved_by(common_displacement(carried));
     }
     if (force) {
       ++forced;
@@ -183,22 +195,27 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
     }
     StepOptions o = options;
     const double time = share * left;
-    if (options.inertia > 0) o.h = std::max(LEAST_TIME, time) * options.h;
+    if (options.inertia > 0)
+      o.h = std::max(LEAST_TIME, time) * options.h;
     left -= time;
     for (std::size_t i = 0; i < m_predictor.size(); ++i) {
       m_predictor[i] *= share;
       velocity[i] = -m_predictor[i] / o.h;
     }
     const bool carried = longest > 0;
-    if (carried) m_solver.shift(m_predictor, velocity);
+    if (carried)
+      m_solver.shift(m_predictor, velocity);
     wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     result = step ? step(o) : m_solver.step(o);
-    for (Vec3& v : velocity) v = -v;
-    if (carried && result.finite) m_solver.shift(nothing, velocity);
+    for (Vec3& v : velocity)
+      v = -v;
+    if (carried && result.finite)
+      m_solver.shift(nothing, velocity);
     ++parts;
     moved += result.largest_move_m + longest_of(m_predictor);
     result.largest_move_m = moved;
-    if (!result.finite || share >= 1) return result;
+    if (!result.finite || share >= 1)
+      return result;
   }
 }
 

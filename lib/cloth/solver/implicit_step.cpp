@@ -44,7 +44,8 @@ private:
 
 bool all_finite(const std::vector<Vec3>& x) {
   for (const Vec3& p : x)
-    if (!p.allFinite()) return false;
+    if (!p.allFinite())
+      return false;
   return true;
 }
 
@@ -69,13 +70,16 @@ void ClothSolver::begin() {
   if (!all_finite(m_x))
     throw input_error("garment.not-finite"_id, "", "",
                       "a particle's position is not a finite number");
-  if (m_v.size() != m_x.size()) m_v.assign(m_x.size(), Vec3::Zero());
+  if (m_v.size() != m_x.size())
+    m_v.assign(m_x.size(), Vec3::Zero());
   m_force.assign(m_x.size(), Vec3::Zero());
   m_rhs = m_dx = m_force;
   m_block_for.assign(m_x.size(), 0);
   m_blocked_for = m_block_for;
-  for (double e : mesh.shortest_edge) m_mean_edge += e / mesh.n_particles;
-  for (double m : mesh.mass) m_mean_weight += m * units::GRAVITY / mesh.n_particles;
+  for (double e : mesh.shortest_edge)
+    m_mean_edge += e / mesh.n_particles;
+  for (double m : mesh.mass)
+    m_mean_weight += m * units::GRAVITY / mesh.n_particles;
 }
 
 Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
@@ -88,7 +92,8 @@ Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
 std::unique_ptr<Effect> ClothSolver::remove(const Effect& effect) {
   const auto found = std::find_if(m_effects.begin(), m_effects.end(),
                                   [&](const auto& e) { return e.get() == &effect; });
-  if (found == m_effects.end()) return nullptr;
+  if (found == m_effects.end())
+    return nullptr;
   std::unique_ptr<Effect> taken = std::move(*found);
   m_effects.erase(found);
   m_pattern_stale = true;
@@ -103,9 +108,11 @@ void ClothSolver::set_positions(std::vector<Vec3> x) {
 
 void ClothSolver::rebuild_pattern() {
   Couplings couplings;
-  for (const auto& e : m_effects) e->declare(couplings);
+  for (const auto& e : m_effects)
+    e->declare(couplings);
   m_matrix = BlockMatrix(m_mesh.n_particles, std::move(couplings));
-  for (const auto& e : m_effects) e->bind(m_matrix);
+  for (const auto& e : m_effects)
+    e->bind(m_matrix);
   m_preconditioner->reset();
   m_pattern_stale = false;
 }
@@ -118,7 +125,8 @@ double ClothSolver::energy(const std::vector<Vec3>& x) const {
 
 double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
   m_trial.resize(m_x.size());
-  for (std::size_t i = 0; i < m_x.size(); ++i) m_trial[i] = m_x[i] + dx[i];
+  for (std::size_t i = 0; i < m_x.size(); ++i)
+    m_trial[i] = m_x[i] + dx[i];
   return energy(m_trial);
 }
 
@@ -130,7 +138,8 @@ void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
     bool more = false;
     for (const auto& e : m_effects)
       more |= e->add_separating_planes(m_x, dx, m_limits, round == MAX_CCD_ROUNDS);
-    if (!more) return;
+    if (!more)
+      return;
     m_limits.apply(m_x, dx, held);
   }
 }
@@ -149,9 +158,12 @@ void ClothSolver::forget() {
 /// that leaving the valley's ground costs, whichever way).
 void ClothSolver::carry_on() {
   double same_way = 0, falls = 0;
-  for (std::size_t i = 0; i < m_dx.size(); ++i) same_way += m_dx[i].dot(m_last_dx[i]);
-  if (same_way < 0) m_carried_for = 0;
-  if (m_carried_for == 0) return;
+  for (std::size_t i = 0; i < m_dx.size(); ++i)
+    same_way += m_dx[i].dot(m_last_dx[i]);
+  if (same_way < 0)
+    m_carried_for = 0;
+  if (m_carried_for == 0)
+    return;
   const double share = std::min(MOST_CARRIED, m_carried_for / (m_carried_for + 3.0));
   for (std::size_t i = 0; i < m_dx.size(); ++i)
     falls += m_force[i].dot(m_dx[i] + share * m_last_dx[i]);
@@ -159,12 +171,14 @@ void ClothSolver::carry_on() {
     m_carried_for = 0;
     return;
   }
-  for (std::size_t i = 0; i < m_dx.size(); ++i) m_dx[i] += share * m_last_dx[i];
+  for (std::size_t i = 0; i < m_dx.size(); ++i)
+    m_dx[i] += share * m_last_dx[i];
 }
 
 /// Whether this step undoes most of the last one.
 bool ClothSolver::turns_back() const {
-  if (m_last_dx.size() != m_dx.size()) return false;
+  if (m_last_dx.size() != m_dx.size())
+    return false;
   double same_way = 0, now = 0, last = 0;
   for (std::size_t i = 0; i < m_dx.size(); ++i) {
     same_way += m_dx[i].dot(m_last_dx[i]);
@@ -177,7 +191,8 @@ bool ClothSolver::turns_back() const {
 /// Whether steps that cost energy do not gain any: the lowest of the last half of those remembered
 /// is below the lowest of the first half by less than a fifth of how far energies went up and down.
 bool ClothSolver::goes_round() const {
-  if (m_energies.size() < REMEMBERED) return false;
+  if (m_energies.size() < REMEMBERED)
+    return false;
   const auto half = m_energies.begin() + REMEMBERED / 2;
   const auto [low, high] = std::minmax_element(half, m_energies.end());
   return *std::min_element(m_energies.begin(), half) - *low < GAIN * (*high - *low);
@@ -194,20 +209,27 @@ int ClothSolver::search_along(const StepOptions& o) {
   double best = energy(m_x), allowed = best;
   if (o.momentum) {
     m_energies.push_back(best);
-    if (m_energies.size() > REMEMBERED) m_energies.erase(m_energies.begin());
-    if (m_falls_for == 0 && goes_round()) m_falls_for = REMEMBERED / 2;
-    if (m_falls_for == 0) allowed = *std::max_element(m_energies.begin(), m_energies.end());
-    else if (--m_falls_for == 0) m_energies.clear();
+    if (m_energies.size() > REMEMBERED)
+      m_energies.erase(m_energies.begin());
+    if (m_falls_for == 0 && goes_round())
+      m_falls_for = REMEMBERED / 2;
+    if (m_falls_for == 0)
+      allowed = *std::max_element(m_energies.begin(), m_energies.end());
+    else if (--m_falls_for == 0)
+      m_energies.clear();
   }
   double largest = 0;
-  for (const Vec3& d : m_step) largest = std::max(largest, d.norm());
+  for (const Vec3& d : m_step)
+    largest = std::max(largest, d.norm());
   const auto try_length = [&](double share) { // keeps the step when it is better
     m_trial_dx.resize(m_step.size());
-    for (std::size_t i = 0; i < m_step.size(); ++i) m_trial_dx[i] = share * m_step[i];
+    for (std::size_t i = 0; i < m_step.size(); ++i)
+      m_trial_dx[i] = share * m_step[i];
     m_trial_held.assign(m_step.size(), 0);
     limit(m_trial_dx, m_trial_held);
     const double after = energy_after(m_trial_dx);
-    if (!(after < best)) return false;
+    if (!(after < best))
+      return false;
     best = after;
     std::swap(m_dx, m_trial_dx);
     std::swap(m_held, m_trial_held);
@@ -221,13 +243,16 @@ int ClothSolver::search_along(const StepOptions& o) {
   }
   if (after <= best) {
     best = after;
-    for (double share = 2; share * largest <= o.largest_move_m && try_length(share);) share *= 2;
+    for (double share = 2; share * largest <= o.largest_move_m && try_length(share);)
+      share *= 2;
   }
-  if (after <= allowed) return 0;
+  if (after <= allowed)
+    return 0;
   best = allowed;
   double share = 0.5;
   for (int halvings = 1; halvings <= MOST_HALVINGS; ++halvings, share *= 0.5)
-    if (try_length(share)) return halvings;
+    if (try_length(share))
+      return halvings;
   std::fill(m_dx.begin(), m_dx.end(), Vec3::Zero());
   return MOST_HALVINGS;
 }
@@ -245,7 +270,8 @@ void ClothSolver::block_held_particles(bool search_failed, bool momentum) {
   double wedged2 = std::numeric_limits<double>::infinity();
   if (search_failed && !momentum) {
     m_residual.clear();
-    for (const Vec3& f : m_force) m_residual.push_back(f.squaredNorm());
+    for (const Vec3& f : m_force)
+      m_residual.push_back(f.squaredNorm());
     wedged2 =
         OUTLIER * OUTLIER * std::max(*percentile_95(m_residual), m_mean_weight * m_mean_weight);
   }
@@ -281,7 +307,8 @@ double ClothSolver::near_tolerance(const StepOptions& o,
   const auto [p95, all] = squares;
   const double most = OUTLIER * OUTLIER * p95;
   double capped = 0;
-  for (double r : m_residual) capped += std::min(r, most);
+  for (double r : m_residual)
+    capped += std::min(r, most);
   const double fine_enough =
       o.least_residual_ratio * m_mean_weight * std::sqrt(static_cast<double>(m_rhs.size()) / all);
   return std::max(std::min(fine_enough, o.cg_tolerance),
@@ -289,7 +316,8 @@ double ClothSolver::near_tolerance(const StepOptions& o,
 }
 
 void ClothSolver::prefetch_contacts(double h) {
-  if (m_pattern_stale) return; // pairs hold places in the matrix
+  if (m_pattern_stale)
+    return; // pairs hold places in the matrix
   for (const auto& e : m_effects) {
     const Stopwatch watch(e->wall_s);
     e->prefetch_contacts(m_x, h);
@@ -300,7 +328,8 @@ void ClothSolver::prefetch_contacts(double h) {
 /// no motion and hide it.
 bool ClothSolver::assembled_finite() const {
   for (std::size_t i = 0; i < m_rhs.size(); ++i)
-    if (!std::isfinite(m_rhs[i].sum() + m_matrix.diagonal(static_cast<int>(i)).sum())) return false;
+    if (!std::isfinite(m_rhs[i].sum() + m_matrix.diagonal(static_cast<int>(i)).sum()))
+      return false;
   return true;
 }
 
@@ -320,7 +349,8 @@ CgResult ClothSolver::solve(const StepOptions& o) {
   if (whole) {
     const Stopwatch watch(assembly_s);
     m_whole = m_matrix;
-    for (const auto& e : m_effects) e->add_indefinite_part(m_x, m_whole);
+    for (const auto& e : m_effects)
+      e->add_indefinite_part(m_x, m_whole);
     radius = TRUSTED * m_mean_edge;
     tolerance.residual *= LOOSER;
   }
@@ -344,7 +374,8 @@ void ClothSolver::assemble(double h, bool again) {
   std::fill(m_force.begin(), m_force.end(), Vec3::Zero());
   const auto add = [&](Effect& e) {
     const Stopwatch watch(e.wall_s);
-    if (!e.is_search() && !again) e.begin_step(m_x, h);
+    if (!e.is_search() && !again)
+      e.begin_step(m_x, h);
     StepContext context{m_x, h, m_force, m_matrix, m_elements, &m_limits};
     e.add(context);
     ++e.calls;
@@ -357,17 +388,21 @@ void ClothSolver::assemble(double h, bool again) {
       return;
     }
     for (const auto& e : m_effects) {
-      if (!e->is_search()) continue;
+      if (!e->is_search())
+        continue;
       const Stopwatch watch(e->wall_s);
-      if (again) e->update_contacts(m_x, h);
-      else e->begin_step(m_x, h);
+      if (again)
+        e->update_contacts(m_x, h);
+      else
+        e->begin_step(m_x, h);
     }
   });
   std::for_each(first_search, m_effects.end(), [&](const auto& e) { add(*e); });
 }
 
 StepResult ClothSolver::step(const StepOptions& o) {
-  if (m_pattern_stale) rebuild_pattern();
+  if (m_pattern_stale)
+    rebuild_pattern();
   if (o.newton_iterations > 1 && o.inertia > 0 && !o.line_search)
     return newton_step(o, o.newton_iterations, false);
   const std::size_t n = m_x.size();
@@ -379,7 +414,8 @@ StepResult ClothSolver::step(const StepOptions& o) {
     add_forces(m_elements, m_force);
     for (std::size_t i = 0; i < n; ++i) {
       double inertia = m_mesh.mass[i] / (o.h * o.h);
-      if (m_blocked_for[i] > 0) inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
+      if (m_blocked_for[i] > 0)
+        inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
       m_matrix.add_isotropic_diagonal(static_cast<int>(i), inertia);
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
@@ -389,13 +425,16 @@ StepResult ClothSolver::step(const StepOptions& o) {
     return result;
   }
   result.cg = solve(o);
-  if (o.line_search && o.momentum && m_carried_for > 0) carry_on();
+  if (o.line_search && o.momentum && m_carried_for > 0)
+    carry_on();
   double largest2 = 0;
-  for (const Vec3& d : m_dx) largest2 = std::max(largest2, d.squaredNorm());
+  for (const Vec3& d : m_dx)
+    largest2 = std::max(largest2, d.squaredNorm());
   if (largest2 > o.largest_move_m * o.largest_move_m) { // the whole step is shortened: cut one by
                                                         // one, neighbours would crumple
     const double scale = o.largest_move_m / std::sqrt(largest2);
-    for (Vec3& d : m_dx) d *= scale;
+    for (Vec3& d : m_dx)
+      d *= scale;
   }
   {
     const Stopwatch watch(contact_s);
@@ -403,10 +442,12 @@ StepResult ClothSolver::step(const StepOptions& o) {
     m_step = m_dx;
     limit(m_dx, m_held);
     double cut2 = 0;
-    for (std::size_t i = 0; i < n; ++i) cut2 = std::max(cut2, (m_step[i] - m_dx[i]).squaredNorm());
+    for (std::size_t i = 0; i < n; ++i)
+      cut2 = std::max(cut2, (m_step[i] - m_dx[i]).squaredNorm());
     const double cut = std::sqrt(cut2), most = MOST_CUT * m_mean_edge;
     if (!o.line_search && cut > most) {
-      for (std::size_t i = 0; i < n; ++i) m_dx[i] = most / cut * m_step[i];
+      for (std::size_t i = 0; i < n; ++i)
+        m_dx[i] = most / cut * m_step[i];
       m_held.assign(n, 0);
       limit(m_dx, m_held);
     }
@@ -420,8 +461,10 @@ StepResult ClothSolver::step(const StepOptions& o) {
   if (o.line_search) {
     result.halvings = search_along(o);
     block_held_particles(result.halvings > 0, o.momentum);
-    if (o.momentum) m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
-    else forget();
+    if (o.momentum)
+      m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
+    else
+      forget();
     m_last_dx = m_dx;
   }
   conclude(o, result);
@@ -431,8 +474,10 @@ StepResult ClothSolver::step(const StepOptions& o) {
 void ClothSolver::conclude(const StepOptions& o, StepResult& result) {
   m_residual.clear();
   for (std::size_t i = 0; i < m_x.size(); ++i) {
-    if (m_held[i]) ++result.held;
-    else m_residual.push_back(m_force[i].norm());
+    if (m_held[i])
+      ++result.held;
+    else
+      m_residual.push_back(m_force[i].norm());
   }
   if (!m_residual.empty()) {
     const auto p95 = percentile_95(m_residual);
@@ -444,7 +489,8 @@ void ClothSolver::conclude(const StepOptions& o, StepResult& result) {
     m_x[i] += m_dx[i];
     m_v[i] = m_dx[i] / o.h;
   }
-  for (const auto& e : m_effects) e->end_step(m_x);
+  for (const auto& e : m_effects)
+    e->end_step(m_x);
 }
 
 } // namespace sloper::cloth

@@ -16,13 +16,15 @@ constexpr int HALVINGS = 10;           // halvings of a solve, at most
 
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i].dot(b[i]);
   return sum;
 }
 
 double farthest_of(const std::vector<Vec3>& displacement) {
   double most2 = 0;
-  for (const Vec3& w : displacement) most2 = std::max(most2, w.squaredNorm());
+  for (const Vec3& w : displacement)
+    most2 = std::max(most2, w.squaredNorm());
   return std::sqrt(most2);
 }
 
@@ -40,7 +42,8 @@ void ClothSolver::assemble_drag(double h) {
     matrix.set_zero();
     StepContext context{m_x, step, unused, matrix, none};
     for (const auto& e : m_effects)
-      if (!e->is_search()) e->add(context);
+      if (!e->is_search())
+        e->add(context);
   };
   fill(m_with_drag, h);
   fill(m_without_drag, std::numeric_limits<double>::infinity());
@@ -50,7 +53,8 @@ void ClothSolver::assemble_drag(double h) {
 void ClothSolver::drag_of(const std::vector<Vec3>& displacement, std::vector<Vec3>& drag) {
   m_with_drag.multiply(displacement, drag);
   m_without_drag.multiply(displacement, m_trial_dx);
-  for (std::size_t i = 0; i < drag.size(); ++i) drag[i] -= m_trial_dx[i];
+  for (std::size_t i = 0; i < drag.size(); ++i)
+    drag[i] -= m_trial_dx[i];
 }
 
 bool ClothSolver::gains(const StepOptions& o) {
@@ -70,13 +74,16 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
   const std::vector<Vec3> start = m_x;
   std::vector<Vec3> aim = m_x, displacement(n, Vec3::Zero()), drag(n, Vec3::Zero()),
                     trial_drag(n); // aim: where inertia alone would bring it
-  for (std::size_t i = 0; i < n; ++i) aim[i] += o.inertia * o.h * m_v[i];
+  for (std::size_t i = 0; i < n; ++i)
+    aim[i] += o.inertia * o.h * m_v[i];
   const auto mass_h2 = [&](std::size_t i) { return m_mesh.mass[i] / (o.h * o.h); };
   const auto potential = [&](const std::vector<Vec3>& x, std::vector<Vec3>& drag_there) {
-    for (std::size_t i = 0; i < n; ++i) displacement[i] = x[i] - start[i];
+    for (std::size_t i = 0; i < n; ++i)
+      displacement[i] = x[i] - start[i];
     drag_of(displacement, drag_there);
     double sum = energy(x) + 0.5 * dot(displacement, drag_there);
-    for (std::size_t i = 0; i < n; ++i) sum += 0.5 * mass_h2(i) * (x[i] - aim[i]).squaredNorm();
+    for (std::size_t i = 0; i < n; ++i)
+      sum += 0.5 * mass_h2(i) * (x[i] - aim[i]).squaredNorm();
     return sum;
   };
   StepResult result;
@@ -89,14 +96,16 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
   for (int k = 0; k < most_solves; ++k) {
     assemble(o.h, begun || k > 0);
     add_forces(m_elements, m_force);
-    if (k == 0) assemble_drag(o.h);
+    if (k == 0)
+      assemble_drag(o.h);
     for (std::size_t i = 0; i < n; ++i) {
       m_matrix.add_isotropic_diagonal(static_cast<int>(i), mass_h2(i));
       m_rhs[i] = m_force[i] - drag[i] + mass_h2(i) * (aim[i] - m_x[i]);
     }
     bool finite = assembled_finite();
     if (finite) {
-      if (k > 0 && dot(m_rhs, m_rhs) <= done2) break;
+      if (k > 0 && dot(m_rhs, m_rhs) <= done2)
+        break;
       const CgResult cg = solve(o);
       result.cg.iterations += cg.iterations;
       result.cg.residual = cg.residual;
@@ -114,19 +123,24 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
     double share = std::min(1.0, o.largest_move_m / std::max(farthest_of(m_dx), LEAST_MOVE));
     bool lower = false;
     for (int halvings = 0; !lower && halvings <= HALVINGS; ++halvings, share *= 0.5) {
-      for (std::size_t i = 0; i < n; ++i) m_dx[i] = share * m_step[i];
+      for (std::size_t i = 0; i < n; ++i)
+        m_dx[i] = share * m_step[i];
       m_held.assign(n, 0);
       limit(m_dx, m_held);
-      for (std::size_t i = 0; i < n; ++i) m_trial[i] = m_x[i] + m_dx[i];
+      for (std::size_t i = 0; i < n; ++i)
+        m_trial[i] = m_x[i] + m_dx[i];
       lower = potential(m_trial, trial_drag) < before;
       result.halvings += !lower;
     }
-    if (!lower) break;
+    if (!lower)
+      break;
     std::swap(m_x, m_trial);
     std::swap(drag, trial_drag);
-    if (farthest_of(m_dx) < LEAST_MOVE) break;
+    if (farthest_of(m_dx) < LEAST_MOVE)
+      break;
   }
-  for (std::size_t i = 0; i < n; ++i) m_dx[i] = m_x[i] - start[i];
+  for (std::size_t i = 0; i < n; ++i)
+    m_dx[i] = m_x[i] - start[i];
   m_x = start;
   conclude(o, result);
   return result;

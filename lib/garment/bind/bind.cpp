@@ -15,9 +15,11 @@ namespace {
 std::map<std::string, double> girths_of(const body::Body& body) {
   std::map<std::string, double> girths;
   for (const auto& [name, girth] : body.girths)
-    if (girth.value_m > 0) girths[name] = girth.value_m;
+    if (girth.value_m > 0)
+      girths[name] = girth.value_m;
   for (const auto& [name, level] : body.levels)
-    if (level.girth_m > 0) girths["level:" + name] = level.girth_m;
+    if (level.girth_m > 0)
+      girths["level:" + name] = level.girth_m;
   return girths;
 }
 
@@ -67,7 +69,8 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
   for (std::size_t i = 0; i < placed.size(); ++i) {
     double there = 0; // a collar does without the head, as long as it hangs on the torso as well
     for (const BindWeight& w : bind.particles[i])
-      if (target[w.frame] >= 0) there += w.weight;
+      if (target[w.frame] >= 0)
+        there += w.weight;
     if (there < 0.5)
       for (const BindWeight& w : bind.particles[i])
         if (target[w.frame] < 0)
@@ -76,7 +79,8 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
                                 ", which the body lacks",
                             "give a body with that part, or another garment");
     for (const BindWeight& w : bind.particles[i]) {
-      if (target[w.frame] < 0) continue;
+      if (target[w.frame] < 0)
+        continue;
       const BindFrame& to = frames.frames[target[w.frame]];
       const double z = maps[w.frame](w.z);
       const double r = std::max(to.profile.at(w.theta, z) + w.gap, 0.0);

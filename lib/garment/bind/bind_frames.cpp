@@ -42,7 +42,8 @@ bool in(Part part, std::initializer_list<Part> parts) {
 std::vector<Vec3> sample_skin(const Body& body, std::initializer_list<Part> parts) {
   std::vector<Vec3> points;
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
-    if (!in(body.face_part[f], parts)) continue;
+    if (!in(body.face_part[f], parts))
+      continue;
     const Triangle& t = body.skin.triangles[f];
     const Vec3 &a = body.skin.positions[t[0]], &b = body.skin.positions[t[1]],
                &c = body.skin.positions[t[2]];
@@ -57,14 +58,16 @@ std::vector<Vec3> sample_skin(const Body& body, std::initializer_list<Part> part
 }
 
 std::optional<Vec3> landmark_of(const Body& body, const std::string& name) {
-  if (!body.has_landmark(name)) return std::nullopt;
+  if (!body.has_landmark(name))
+    return std::nullopt;
   return body.landmark(name);
 }
 
 /// Mean of a landmark of both sides, or of the one that is there.
 std::optional<Vec3> find_middle(const Body& body, const std::string& stem) {
   const auto l = landmark_of(body, stem + "_l"), r = landmark_of(body, stem + "_r");
-  if (l && r) return Vec3(0.5 * (*l + *r));
+  if (l && r)
+    return Vec3(0.5 * (*l + *r));
   return l ? l : r;
 }
 
@@ -93,12 +96,15 @@ std::optional<ArmJoints> arm_joints(const Body& body, const std::string& side,
   const auto acromion = landmark_of(body, "acromion_" + side),
              axilla = landmark_of(body, "axilla_" + side);
   auto tip = landmark_of(body, "hand_tip_" + side);
-  if (!tip) tip = landmark_of(body, "hand_extreme_" + side);
-  if (!acromion || !tip || skin.empty()) return std::nullopt;
+  if (!tip)
+    tip = landmark_of(body, "hand_extreme_" + side);
+  if (!acromion || !tip || skin.empty())
+    return std::nullopt;
   ArmJoints joints;
   // The acromion lies on the skin; the middle between it and the arm pit is inside the shoulder.
   joints.shoulder = axilla ? Vec3(0.5 * (*acromion + *axilla)) : Vec3(*acromion - Vec3(0, 0.05, 0));
-  if (const auto joint = landmark_of(body, "shoulder_joint_" + side)) joints.shoulder = *joint;
+  if (const auto joint = landmark_of(body, "shoulder_joint_" + side))
+    joints.shoulder = *joint;
   const auto elbow = landmark_of(body, "elbow_" + side), wrist = landmark_of(body, "wrist_" + side);
   joints.elbow = elbow ? *elbow : center_of_slab(skin, joints.shoulder, *tip, ELBOW_FRACTION);
   joints.wrist = wrist ? *wrist : center_of_slab(skin, joints.shoulder, *tip, WRIST_FRACTION);
@@ -110,7 +116,8 @@ std::optional<ArmJoints> arm_joints(const Body& body, const std::string& side,
 PartFrame body_frame(const Body& body, const std::string& name, const Vec3& lower,
                      const Vec3& upper) {
   const auto found = body.frames.find(name);
-  if (found != body.frames.end()) return found->second.frame;
+  if (found != body.frames.end())
+    return found->second.frame;
   return make_part_frame(lower, upper, Vec3::UnitZ(),
                          name.size() > 2 && name.compare(name.size() - 2, 2, "_r") == 0);
 }
@@ -124,14 +131,17 @@ void add_frame(BindFrames& all, const std::string& name, const PartFrame& frame,
 std::map<std::string, double> torso_marks(const Body& body, const PartFrame& frame) {
   std::map<std::string, double> marks;
   const auto set = [&](const std::string& name, const std::optional<Vec3>& p) {
-    if (p) marks[name] = frame.coordinates(*p).z;
+    if (p)
+      marks[name] = frame.coordinates(*p).z;
   };
   const auto set_level = [&](const std::string& name, const std::string& level) {
     const auto found = body.levels.find(level);
-    if (found == body.levels.end()) return;
+    if (found == body.levels.end())
+      return;
     const double at = (found->second.y - frame.lower.y()) /
                       (frame.upper.y() - frame.lower.y()); // where the level crosses the axis
-    if (std::isfinite(at)) marks[name] = at;
+    if (std::isfinite(at))
+      marks[name] = at;
   };
   set("crotch", landmark_of(body, "crotch"));
   set("axilla", find_middle(body, "axilla"));
@@ -149,7 +159,8 @@ std::map<std::string, double> torso_marks(const Body& body, const PartFrame& fra
 
 int BindFrames::index(const std::string& name) const {
   for (std::size_t k = 0; k < frames.size(); ++k)
-    if (frames[k].name == name) return static_cast<int>(k);
+    if (frames[k].name == name)
+      return static_cast<int>(k);
   return -1;
 }
 
@@ -160,7 +171,8 @@ body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec
   double low = 1e300, high = -1e300, mean_radius = 0;
   for (const Vec3& p : points) {
     const PartCoordinates c = frame.coordinates(p);
-    if (c.z < z_low || c.z > z_high) continue;
+    if (c.z < z_low || c.z > z_high)
+      continue;
     samples.push_back(c);
     low = std::min(low, c.z);
     high = std::max(high, c.z);
@@ -207,7 +219,8 @@ body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec
     for (int i = 0; i < N_THETA; ++i) {
       const int at = j * N_THETA + i;
       couple(at, j * N_THETA + (i + 1) % N_THETA, across);
-      if (j + 1 < rows) couple(at, at + N_THETA, along);
+      if (j + 1 < rows)
+        couple(at, at + N_THETA, along);
       if (outermost[at] >= 0) {
         entries.emplace_back(at, at, 1.0);
         right[at] = outermost[at];
@@ -218,7 +231,8 @@ body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec
   const SparseSolver solver(matrix);
   const Eigen::VectorXd radius = solver.solve(right);
   profile.radius.resize(n);
-  for (int k = 0; k < n; ++k) profile.radius[k] = std::max(radius[k], MIN_RADIUS);
+  for (int k = 0; k < n; ++k)
+    profile.radius[k] = std::max(radius[k], MIN_RADIUS);
   return profile;
 }
 
@@ -249,7 +263,8 @@ BindFrames make_bind_frames(const Body& body) {
        {std::pair{Part::ARM_L, std::string("l")}, std::pair{Part::ARM_R, std::string("r")}}) {
     const std::vector<Vec3> skin = sample_skin(body, {part});
     const auto joints = arm_joints(body, side, skin);
-    if (!joints) continue;
+    if (!joints)
+      continue;
     arms[part] = *joints;
     const bool mirrored = side == "r";
     add_frame(all, "upper_arm_" + side,
@@ -264,7 +279,8 @@ BindFrames make_bind_frames(const Body& body) {
     const auto ankle = landmark_of(body, "ankle_" + side),
                joint = landmark_of(body, "hip_joint_" + side);
     const std::vector<Vec3> skin = sample_skin(body, {part});
-    if (skin.empty() || !(body.frames.count("leg_" + side) || (ankle && joint))) continue;
+    if (skin.empty() || !(body.frames.count("leg_" + side) || (ankle && joint)))
+      continue;
     const PartFrame frame = body_frame(body, "leg_" + side, ankle.value_or(Vec3::Zero()),
                                        joint.value_or(Vec3::UnitY()));
     add_frame(all, "leg_" + side, frame, skin, -0.5, 1.5);
@@ -334,15 +350,18 @@ MarkMap::MarkMap(const Marks& from, double from_length, const Marks& to, double 
           std::abs(y - ky) * to_length < MIN_MARK_DISTANCE)
         return false;
       const double stretch = (y - ky) * to_length / ((x - kx) * from_length);
-      if (stretch < 1.0 / 3 || stretch > 3) return false; // not the same place on both bodies
+      if (stretch < 1.0 / 3 || stretch > 3)
+        return false; // not the same place on both bodies
     }
     return true;
   };
   for (const char* name : MARKS_BY_WEIGHT)
     if (from.count(name) && to.count(name) && fits(from.at(name), to.at(name)))
       knots.emplace_back(from.at(name), to.at(name));
-  if (knots.empty()) knots = {{0.0, 0.0}, {1.0, 1.0}};
-  else if (fits(0, 0) && knots.size() == 1) knots.emplace_back(0.0, 0.0);
+  if (knots.empty())
+    knots = {{0.0, 0.0}, {1.0, 1.0}};
+  else if (fits(0, 0) && knots.size() == 1)
+    knots.emplace_back(0.0, 0.0);
   std::sort(knots.begin(), knots.end());
   for (const auto& [x, y] : knots) {
     m_x.push_back(x);
@@ -359,10 +378,13 @@ MarkMap::MarkMap(const Marks& from, double from_length, const Marks& to, double 
 }
 
 double MarkMap::operator()(double z) const {
-  if (z <= m_x.front()) return m_y.front() + (z - m_x.front()) * m_outside_slope;
-  if (z >= m_x.back()) return m_y.back() + (z - m_x.back()) * m_outside_slope;
+  if (z <= m_x.front())
+    return m_y.front() + (z - m_x.front()) * m_outside_slope;
+  if (z >= m_x.back())
+    return m_y.back() + (z - m_x.back()) * m_outside_slope;
   std::size_t i = 0;
-  while (z > m_x[i + 1]) ++i;
+  while (z > m_x[i + 1])
+    ++i;
   const double h = m_x[i + 1] - m_x[i], t = (z - m_x[i]) / h, u = 1 - t;
   return m_y[i] * u * u * (1 + 2 * t) + m_slope[i] * h * t * u * u +
          m_y[i + 1] * t * t * (3 - 2 * t) - m_slope[i + 1] * h * t * t * u;

@@ -35,7 +35,8 @@ Patches patches_of(const std::vector<int>& label, const std::vector<std::array<i
                    const std::vector<double>& mass) {
   DisjointSets joined(label.size());
   for (const auto& [a, b] : edges)
-    if (label[a] == label[b]) joined.unite(a, b);
+    if (label[a] == label[b])
+      joined.unite(a, b);
   Patches patches;
   patches.of_particle.resize(label.size());
   patches.area.assign(label.size(), 0);
@@ -50,17 +51,20 @@ Patches patches_of(const std::vector<int>& label, const std::vector<std::array<i
 void remove_strays(std::vector<int>& label, const std::vector<int>& piece,
                    const std::vector<std::array<int, 2>>& edges, const std::vector<double>& mass) {
   std::map<int, double> piece_area;
-  for (std::size_t i = 0; i < label.size(); ++i) piece_area[piece[i]] += mass[i];
+  for (std::size_t i = 0; i < label.size(); ++i)
+    piece_area[piece[i]] += mass[i];
   for (int round = 0; round < 4; ++round) {
     const Patches patches = patches_of(label, edges, mass);
     std::map<int, std::map<int, int>> neighbours; // stray patch -> label -> edges
     for (const auto& [a, b] : edges) {
-      if (label[a] == label[b]) continue;
+      if (label[a] == label[b])
+        continue;
       for (const auto& [i, j] : {std::pair{a, b}, std::pair{b, a}})
         if (patches.area[patches.of_particle[i]] < SMALL_PATCH * piece_area[piece[i]])
           ++neighbours[patches.of_particle[i]][label[j]];
     }
-    if (neighbours.empty()) return;
+    if (neighbours.empty())
+      return;
     std::map<int, int> next;
     for (const auto& [patch, counts] : neighbours)
       next[patch] =
@@ -100,9 +104,11 @@ std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::ve
     for (std::size_t i = begin; i < end; ++i) {
       double best = 1e300;
       for (std::size_t k = 0; k < trees.tree.size(); ++k) {
-        if (trees.triangles[k].empty()) continue;
+        if (trees.triangles[k].empty())
+          continue;
         const collision::ClosestPoint c = trees.tree[k].closest_point(positions[i], best);
-        if (c.triangle < 0) continue;
+        if (c.triangle < 0)
+          continue;
         const Triangle& t = trees.triangles[k][c.triangle];
         const Vec3 n = area_normal(body.skin.positions[t[0]], body.skin.positions[t[1]],
                                    body.skin.positions[t[2]])
@@ -125,7 +131,8 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
                          const std::vector<int>& piece, int which, const BindFrames& frames,
                          double crotch_y) {
   const int l = frames.index("leg_l"), r = frames.index("leg_r");
-  if (l < 0 || r < 0) return false;
+  if (l < 0 || r < 0)
+    return false;
   const auto axis_at = [&](int k, double y) {
     const PartFrame& f = frames.frames[k].frame;
     return Vec3(f.lower + (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
@@ -133,9 +140,11 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
   double lowest = 1e300;
   for (const Triangle& t : triangles)
     if (piece[t[0]] == which)
-      for (int i : t) lowest = std::min(lowest, positions[i].y());
+      for (int i : t)
+        lowest = std::min(lowest, positions[i].y());
   const double highest = crotch_y - 0.01;
-  if (lowest >= highest) return false;
+  if (lowest >= highest)
+    return false;
   // A line from leg to leg at one height passes cloth of trousers, and none of a skirt, however far
   // apart the feet stand. Most heights decide, so that a pleat that hangs in at the front does not
   // make a pair of trousers out of a skirt.
@@ -145,18 +154,22 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
     const Vec3 a = axis_at(l, y), b = axis_at(r, y);
     const Vec2 from(a.x(), a.z()), line(b.x() - a.x(), b.z() - a.z()), aside(-line.y(), line.x());
     passed += std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
-      if (piece[t[0]] != which) return false;
+      if (piece[t[0]] != which)
+        return false;
       Vec2 cut[2]; // where the triangle's edges are at this height
       int n = 0;
       for (int e = 0; e < 3; ++e) {
         const Vec3 &p = positions[t[e]], &q = positions[t[(e + 1) % 3]];
-        if ((p.y() <= y) == (q.y() <= y)) continue;
+        if ((p.y() <= y) == (q.y() <= y))
+          continue;
         const Vec3 at = p + (y - p.y()) / (q.y() - p.y()) * (q - p);
         cut[n++] = Vec2(at.x(), at.z()) - from;
       }
-      if (n != 2) return false;
+      if (n != 2)
+        return false;
       const double u = cut[0].dot(aside), v = cut[1].dot(aside);
-      if ((u <= 0) == (v <= 0)) return false;
+      if ((u <= 0) == (v <= 0))
+        return false;
       const double along =
           (cut[0] + u / (u - v) * (cut[1] - cut[0])).dot(line) / line.squaredNorm();
       return along > 0 && along < 1;
@@ -185,11 +198,13 @@ bind_weights(const Garment& garment, const body::Body& body, const BindFrames& f
                                                         : frames.frames[torso].frame.lower.y();
     std::map<int, bool> together;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (label[i] != leg_l && label[i] != leg_r) continue;
+      if (label[i] != leg_l && label[i] != leg_r)
+        continue;
       const auto [found, is_new] = together.try_emplace(piece[i], false);
       if (is_new)
         found->second = wraps_legs_together(x, triangles, piece, piece[i], frames, crotch_y);
-      if (found->second) label[i] = lower_body;
+      if (found->second)
+        label[i] = lower_body;
     }
   }
 
@@ -197,14 +212,17 @@ bind_weights(const Garment& garment, const body::Body& body, const BindFrames& f
   remove_strays(label, piece, edges, std::vector<double>(mass.data(), mass.data() + mass.size()));
 
   Eigen::SparseMatrix<double> system = BLEND_LENGTH * BLEND_LENGTH * stiffness;
-  for (Eigen::Index i = 0; i < mass.size(); ++i) system.coeffRef(i, i) += mass[i];
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+    system.coeffRef(i, i) += mass[i];
   const SparseSolver solver(system);
   std::vector<std::vector<std::pair<int, double>>> weights(x.size());
   std::vector<double> sum(x.size(), 0);
-  for (int k = 0; k < static_cast<int>(frames.frames.size()); ++k) {
+  for (int k = 0; k < std::ssize(frames.frames); ++k) {
     Eigen::VectorXd w = Eigen::VectorXd::Zero(mass.size());
-    for (std::size_t i = 0; i < x.size(); ++i) w[i] = label[i] == k;
-    if (w.isZero()) continue;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      w[i] = label[i] == k;
+    if (w.isZero())
+      continue;
     for (int pass = 0; pass < 2; ++pass) {
       const Eigen::VectorXd right = mass.cwiseProduct(w);
       w = solver.solve(right);
@@ -216,7 +234,8 @@ bind_weights(const Garment& garment, const body::Body& body, const BindFrames& f
       }
   }
   for (std::size_t i = 0; i < x.size(); ++i)
-    for (auto& [frame, weight] : weights[i]) weight /= sum[i];
+    for (auto& [frame, weight] : weights[i])
+      weight /= sum[i];
   return weights;
 }
 

@@ -18,9 +18,11 @@ std::optional<Measure> length_along(const body::Body& body, const std::vector<st
   Measure m;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto here = body.landmarks.find(names[i] + side);
-    if (here == body.landmarks.end()) return std::nullopt;
+    if (here == body.landmarks.end())
+      return std::nullopt;
     m.spread = std::hypot(m.spread, here->second.spread_m);
-    if (i > 0) m.value += (here->second.p - body.landmark(names[i - 1] + side)).norm();
+    if (i > 0)
+      m.value += (here->second.p - body.landmark(names[i - 1] + side)).norm();
   }
   return m;
 }
@@ -28,7 +30,8 @@ std::optional<Measure> length_along(const body::Body& body, const std::vector<st
 std::optional<Measure> girth(const body::Body& body, const std::string& name,
                              const std::string& side) {
   const auto found = body.girths.find(name + side);
-  if (found == body.girths.end() || !(found->second.value_m > 0)) return std::nullopt;
+  if (found == body.girths.end() || !(found->second.value_m > 0))
+    return std::nullopt;
   return Measure{found->second.value_m, found->second.spread_m};
 }
 
@@ -39,7 +42,8 @@ std::vector<SideDifference> uneven_sides(const body::Body& body) {
   const auto compare = [&](const char* limb, const char* what, const char* more,
                            const std::optional<Measure>& left,
                            const std::optional<Measure>& right) {
-    if (!left || !right) return;
+    if (!left || !right)
+      return;
     const double difference = left->value - right->value;
     if (std::abs(difference) <= GRADED_SIDES_M + 2 * std::hypot(left->spread, right->spread))
       return;

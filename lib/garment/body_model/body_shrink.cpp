@@ -56,9 +56,11 @@ BodyShrink::BodyShrink(const body::Body& body)
     : m_skin(body.skin.positions), m_bone_point(body.skin.positions) {
   std::vector<body::Part> part(m_skin.size(), body::Part::TORSO);
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f)
-    for (int v : body.skin.triangles[f]) part[v] = body.face_part[f];
+    for (int v : body.skin.triangles[f])
+      part[v] = body.face_part[f];
   std::vector<Segment> bones[body::N_PARTS];
-  for (int p = 0; p < body::N_PARTS; ++p) bones[p] = bones_of(body, static_cast<body::Part>(p));
+  for (int p = 0; p < body::N_PARTS; ++p)
+    bones[p] = bones_of(body, static_cast<body::Part>(p));
   for (std::size_t v = 0; v < m_skin.size(); ++v) {
     const int p = std::min(static_cast<int>(part[v]), body::N_PARTS - 1);
     double best = 1e300;
@@ -69,7 +71,8 @@ BodyShrink::BodyShrink(const body::Body& body)
         m_bone_point[v] = q;
       }
     }
-    if (best < 1e300) m_reach = std::max(m_reach, best);
+    if (best < 1e300)
+      m_reach = std::max(m_reach, best);
   }
 }
 

@@ -22,28 +22,34 @@ void CollisionBody::collide_with(const TriangleMesh& skin) {
 void CollisionBody::prepare(unsigned covered) {
   m_state.covered = covered;
   m_extremity_hulls.reset();
-  if (covered) m_extremity_hulls.emplace(*m_body, covered);
+  if (covered)
+    m_extremity_hulls.emplace(*m_body, covered);
   const TriangleMesh& whole = m_extremity_hulls ? m_extremity_hulls->mesh() : m_body->skin;
   if (!m_state.full_skin && m_coarse_tolerance > 0 && whole.triangles.size() > DENSE_SKIN) {
     for (double tolerance = m_coarse_tolerance;
          !m_coarse && tolerance <= ROUGHEST * m_coarse_tolerance; tolerance *= 2) {
       m_coarse.emplace(whole, tolerance);
-      if (!m_coarse->pays()) m_coarse.reset();
+      if (!m_coarse->pays())
+        m_coarse.reset();
     }
   }
   collide_with(m_coarse ? m_coarse->mesh() : whole);
   if (m_coarse)
     m_reporter.info("a coarser skin: " + std::to_string(m_coarse->mesh().triangles.size()) +
                     " of " + std::to_string(whole.triangles.size()) + " triangles");
-  if (covered & ExtremityHulls::HANDS) m_reporter.info("hands as mittens: cloth is near them");
-  if (covered & ExtremityHulls::FEET) m_reporter.info("toes as in a sock: cloth is near them");
+  if (covered & ExtremityHulls::HANDS)
+    m_reporter.info("hands as mittens: cloth is near them");
+  if (covered & ExtremityHulls::FEET)
+    m_reporter.info("toes as in a sock: cloth is near them");
 }
 
 void CollisionBody::restore(const State& state, const Garment& garment) {
   m_state = state;
   prepare(m_state.covered);
-  if (m_state.shrunk) m_shrink.emplace(*m_body);
-  if (m_state.arms_aside) make_forearms(garment);
+  if (m_state.shrunk)
+    m_shrink.emplace(*m_body);
+  if (m_state.arms_aside)
+    make_forearms(garment);
 }
 
 unsigned CollisionBody::ends_near(const std::vector<Vec3>& points) const {
@@ -51,7 +57,8 @@ unsigned CollisionBody::ends_near(const std::vector<Vec3>& points) const {
 }
 
 void CollisionBody::use_full_skin() {
-  if (!has_skin() || (m_collider && !m_extremity_hulls && !m_coarse)) return;
+  if (!has_skin() || (m_collider && !m_extremity_hulls && !m_coarse))
+    return;
   m_extremity_hulls.reset();
   m_coarse.reset();
   collide_with(m_body->skin);
@@ -64,7 +71,8 @@ void CollisionBody::drop_coarse_proxy() {
 }
 
 void CollisionBody::draw_in(double scale) {
-  if (!m_shrink) m_shrink.emplace(*m_body);
+  if (!m_shrink)
+    m_shrink.emplace(*m_body);
   m_state.shrunk = true;
   m_state.scale = scale;
   m_collider->set_positions(skin_at(scale));
@@ -84,7 +92,8 @@ void CollisionBody::find_arms_aside(const Garment& garment) {
 }
 
 void CollisionBody::put_arms_aside() {
-  if (m_state.arms_aside) m_collider->set_positions(skin_at(1));
+  if (m_state.arms_aside)
+    m_collider->set_positions(skin_at(1));
 }
 
 void CollisionBody::let_arms_hang() {
@@ -111,7 +120,8 @@ void CollisionBody::stand_at(const std::vector<Vec3>& skin) {
 
 std::vector<Vec3> placed_on(const Garment& garment, const std::string& part) {
   std::vector<Vec3> points;
-  if (garment.panels.placed.empty()) return points;
+  if (garment.panels.placed.empty())
+    return points;
   for (const pattern::PanelInfo& p : garment.panels.panels)
     for (int v = p.first_vertex; p.part.starts_with(part) && v < p.first_vertex + p.n_vertices; ++v)
       points.push_back(garment.panels.placed[v]);

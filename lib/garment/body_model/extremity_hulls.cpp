@@ -31,32 +31,38 @@ bool sees(const std::vector<Vec3>& p, const Triangle& t, int v) {
 } // namespace
 
 std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
-  const int n = static_cast<int>(p.size());
-  if (n < 4) return {};
+  const int n = std::ssize(p);
+  if (n < 4)
+    return {};
   // a first tetrahedron of points far apart
   int a = 0, b = 0, c = 0, d = -1;
   for (int i = 0; i < n; ++i)
-    if ((p[i] - p[a]).squaredNorm() > (p[b] - p[a]).squaredNorm()) b = i;
+    if ((p[i] - p[a]).squaredNorm() > (p[b] - p[a]).squaredNorm())
+      b = i;
   double widest = 0, highest = 0;
   for (int i = 0; i < n; ++i)
     if (const double area = (p[b] - p[a]).cross(p[i] - p[a]).squaredNorm(); area > widest) {
       widest = area;
       c = i;
     }
-  if (!(widest > 0)) return {};
+  if (!(widest > 0))
+    return {};
   for (int i = 0; i < n; ++i)
     if (const double volume = std::abs((p[b] - p[a]).cross(p[c] - p[a]).dot(p[i] - p[a]));
         volume > highest) {
       highest = volume;
       d = i;
     }
-  if (d < 0 || collision::orientation(p[a], p[b], p[c], p[d]) == 0) return {};
+  if (d < 0 || collision::orientation(p[a], p[b], p[c], p[d]) == 0)
+    return {};
   std::vector<Triangle> hull = {{a, b, c}, {a, c, d}, {a, d, b}, {b, d, c}};
   const int inner[4] = {d, b, c, a};
   for (int f = 0; f < 4; ++f)
-    if (sees(p, hull[f], inner[f])) std::swap(hull[f][1], hull[f][2]);
+    if (sees(p, hull[f], inner[f]))
+      std::swap(hull[f][1], hull[f][2]);
   for (int v = 0; v < n; ++v) {
-    if (v == a || v == b || v == c || v == d) continue;
+    if (v == a || v == b || v == c || v == d)
+      continue;
     std::vector<Triangle> kept;
     std::set<std::pair<int, int>> rim;
     for (const Triangle& t : hull) {
@@ -65,10 +71,13 @@ std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
         continue;
       }
       for (int k = 0; k < 3; ++k) // an edge between two seen faces comes twice, once each way
-        if (!rim.erase({t[(k + 1) % 3], t[k]})) rim.insert({t[k], t[(k + 1) % 3]});
+        if (!rim.erase({t[(k + 1) % 3], t[k]}))
+          rim.insert({t[k], t[(k + 1) % 3]});
     }
-    if (rim.empty()) continue;
-    for (const auto& [from, to] : rim) kept.push_back({from, to, v});
+    if (rim.empty())
+      continue;
+    for (const auto& [from, to] : rim)
+      kept.push_back({from, to, v});
     hull = std::move(kept);
   }
   return hull;
@@ -85,7 +94,8 @@ ExtremityHulls::ExtremityHulls(const body::Body& body, unsigned ends) : m_mesh(b
                              Candidate{HANDS, body::Part::ARM_R, "wrist_r", "hand_tip_r", 0},
                              Candidate{FEET, body::Part::LEG_L, "heel_l", "foot_tip_l", BALL},
                              Candidate{FEET, body::Part::LEG_R, "heel_r", "foot_tip_r", BALL}}) {
-    if (!(ends & c.end) || !body.has_landmark(c.root) || !body.has_landmark(c.tip)) continue;
+    if (!(ends & c.end) || !body.has_landmark(c.root) || !body.has_landmark(c.tip))
+      continue;
     Shell shell{c.end, body.landmark(c.root), body.landmark(c.tip)};
     shell.root += c.from * (shell.tip - shell.root);
     std::vector<char> of_end(body.skin.positions.size(), 0);
@@ -105,12 +115,14 @@ ExtremityHulls::ExtremityHulls(const body::Body& body, unsigned ends) : m_mesh(b
         middle += points.back();
       }
     const std::vector<Triangle> hull = convex_hull_of(points);
-    if (hull.empty()) continue;
+    if (hull.empty())
+      continue;
     middle /= static_cast<double>(points.size());
     std::vector<int> index(points.size(), -1);
     for (const Triangle& t : hull)
       for (int v : t) {
-        if (index[v] >= 0) continue;
+        if (index[v] >= 0)
+          continue;
         index[v] = static_cast<int>(body.skin.positions.size() + m_source.size());
         m_source.push_back(source[v]);
         m_outward.push_back(OFF_THE_SKIN * (points[v] - middle).normalized());
@@ -124,7 +136,8 @@ ExtremityHulls::ExtremityHulls(const body::Body& body, unsigned ends) : m_mesh(b
 
 std::vector<Vec3> ExtremityHulls::positions(const std::vector<Vec3>& skin) const {
   std::vector<Vec3> all = skin;
-  for (std::size_t i = 0; i < m_source.size(); ++i) all.push_back(skin[m_source[i]] + m_outward[i]);
+  for (std::size_t i = 0; i < m_source.size(); ++i)
+    all.push_back(skin[m_source[i]] + m_outward[i]);
   return all;
 }
 

@@ -37,18 +37,22 @@ Forearms::Forearms(const body::Body& body) : m_skin(body.skin.positions) {
             {}};
     std::vector<char> beyond(body.skin.positions.size(), 0);
     for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
-      if (body.face_part[f] != part) continue;
+      if (body.face_part[f] != part)
+        continue;
       const Triangle& t = body.skin.triangles[f];
       bool all = true;
       for (int v : t) {
         const bool is_beyond = (body.skin.positions[v] - arm.elbow).dot(arm.down) > 0;
-        if (is_beyond) beyond[v] = 1;
+        if (is_beyond)
+          beyond[v] = 1;
         all &= is_beyond;
       }
-      if (all) m_triangles.push_back(t);
+      if (all)
+        m_triangles.push_back(t);
     }
     for (std::size_t v = 0; v < beyond.size(); ++v) {
-      if (!beyond[v]) continue;
+      if (!beyond[v])
+        continue;
       arm.vertices.push_back(static_cast<int>(v));
       arm.box.add(body.skin.positions[v]);
     }
@@ -57,14 +61,16 @@ Forearms::Forearms(const body::Body& body) : m_skin(body.skin.positions) {
 }
 
 bool Forearms::are_near(const std::vector<Vec3>& points) const {
-  if (points.empty()) return false;
+  if (points.empty())
+    return false;
   const Box3 box = bounding_box(points);
   return std::any_of(m_arms.begin(), m_arms.end(),
                      [&](const Arm& arm) { return !arm.box.empty() && overlap(box, arm.box); });
 }
 
 double Forearms::length_on(const Arm& arm, const std::vector<Vec3>& sleeve) {
-  if (sleeve.empty()) return -arm.upper_length;
+  if (sleeve.empty())
+    return -arm.upper_length;
   double low = 1e300, high = -1e300; // m along the forearm
   for (const Vec3& p : sleeve) {
     const double along = (p - arm.elbow).dot(arm.down.normalized());
@@ -83,12 +89,13 @@ bool Forearms::is_covered(body::Part part, const std::vector<Vec3>& sleeve) cons
 void Forearms::leave_in(body::Part part, const std::vector<Vec3>& sleeve) {
   for (Arm& arm : m_arms) {
     const double covered = length_on(arm, sleeve);
-    if (arm.part != part || covered <= 0) continue;
+    if (arm.part != part || covered <= 0)
+      continue;
     arm.begins = covered + PAST_END;
     arm.vertices.erase(std::remove_if(arm.vertices.begin(), arm.vertices.end(),
                                       [&](int v) {
-                                        return (m_skin[static_cast<std::size_t>(v)] - arm.elbow)
-                                                   .dot(arm.down.normalized()) < arm.begins;
+                                        return (m_skin[v] - arm.elbow).dot(arm.down.normalized()) <
+                                               arm.begins;
                                       }),
                        arm.vertices.end());
   }
@@ -97,7 +104,8 @@ void Forearms::leave_in(body::Part part, const std::vector<Vec3>& sleeve) {
 std::vector<Vec3> Forearms::drawn_in(std::vector<Vec3> skin) const {
   for (const Arm& arm : m_arms) {
     const Vec3 end = arm.elbow + arm.begins * arm.down.normalized();
-    for (int v : arm.vertices) skin[v] = end + DRAWN_IN * (skin[v] - end);
+    for (int v : arm.vertices)
+      skin[v] = end + DRAWN_IN * (skin[v] - end);
   }
   return skin;
 }
@@ -107,7 +115,8 @@ std::vector<char> hanging_on_arms(const Bind& bind) {
   for (std::size_t i = 0; i < on_arms.size(); ++i) {
     double weight = 0;
     for (const BindWeight& w : bind.particles[i])
-      if (bind.frames[w.frame].find("arm") != std::string::npos) weight += w.weight;
+      if (bind.frames[w.frame].find("arm") != std::string::npos)
+        weight += w.weight;
     on_arms[i] = weight > ON_ARM;
   }
   return on_arms;
@@ -123,12 +132,14 @@ std::size_t bring_under_arms(std::vector<Vec3>& positions, const std::vector<cha
       points.push_back(positions[i]);
     }
   const Forearms forearms(body);
-  if (hanging.empty() || !forearms.are_near(points)) return 0;
+  if (hanging.empty() || !forearms.are_near(points))
+    return 0;
   const ExtremityHulls covered(body, ExtremityHulls::HANDS);
   std::vector<Triangle> outer = forearms.triangles(), inner;
   for (std::size_t f = 0; f < covered.mesh().triangles.size(); ++f) {
     const Triangle& t = covered.mesh().triangles[f];
-    if (f >= body.skin.triangles.size()) outer.push_back(t); // a mitten
+    if (f >= body.skin.triangles.size())
+      outer.push_back(t); // a mitten
     else if (const body::Part p = body.face_part[f];
              p == body::Part::TORSO || p == body::Part::LEG_L || p == body::Part::LEG_R)
       inner.push_back(t);
@@ -138,13 +149,16 @@ std::size_t bring_under_arms(std::vector<Vec3>& positions, const std::vector<cha
   std::size_t moved = 0;
   for (std::size_t i : hanging) {
     const collision::ClosestPoint from = within.closest_point(positions[i], REACH);
-    if (from.triangle < 0) continue;
+    if (from.triangle < 0)
+      continue;
     const Vec3 line = positions[i] - from.point;
     const double length = line.norm();
-    if (length <= 0) continue;
+    if (length <= 0)
+      continue;
     const double seen = length + gap,
                  hit = seen * arms.first_hit(from.point, from.point + seen / length * line);
-    if (!(hit < seen)) continue;
+    if (!(hit < seen))
+      continue;
     positions[i] = from.point + std::max(hit - gap, 0.5 * hit) / length * line;
     ++moved;
   }

@@ -29,12 +29,15 @@ AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const Acc
   std::vector<Vec3> before;
   const std::vector<std::string> names = accuracy_names();
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (goal.max_error_m <= 0 && k > 1) break;
-    if (k > 0 && goal.max_seconds > 0 && elapsed() * (1 + NEXT_COSTS) > goal.max_seconds) break;
+    if (goal.max_error_m <= 0 && k > 1)
+      break;
+    if (k > 0 && goal.max_seconds > 0 && elapsed() * (1 + NEXT_COSTS) > goal.max_seconds)
+      break;
     DrapeSettings settings = preset_settings(names[k]);
     adjust(settings);
     settings.accuracy = names[k];
-    if (goal.max_seconds > 0) settings.max_seconds = std::max(goal.max_seconds - elapsed(), 1e-6);
+    if (goal.max_seconds > 0)
+      settings.max_seconds = std::max(goal.max_seconds - elapsed(), 1e-6);
     reporter.info("accuracy " + names[k]);
     const std::vector<Vec3> kept = garment.position;
     DrapeRequest request;
@@ -67,7 +70,8 @@ AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const Acc
     }
     presets.push_back(entry);
     before = garment.position;
-    if (!converged) break; // a finer preset would not come to rest either
+    if (!converged)
+      break; // a finer preset would not come to rest either
     if (goal.max_error_m > 0 && estimate >= 0 && ACCURACY_MARGIN * estimate <= goal.max_error_m)
       break;
   }

@@ -15,7 +15,8 @@ DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings&
 
 DrapeReport resume_drape(const DrapeCheckpoint& from, Garment& garment, const body::Body* body,
                          Reporter& reporter, const Checkpoints& checkpoints) {
-  if (from.levels) return resume_through_levels(from, garment, body, reporter, checkpoints);
+  if (from.levels)
+    return resume_through_levels(from, garment, body, reporter, checkpoints);
   const DrapeRequest request{.checkpoints = checkpoints};
   return DrapeSession({.garment = garment, .body = body, .request = request}, from, reporter).run();
 }

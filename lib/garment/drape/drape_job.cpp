@@ -58,8 +58,10 @@ public:
   /// The garment hangs on the last skin from now on.
   void leave(Garment& garment) const {
     garment.body_sha256.clear();
-    if (moves.end) bind_garment(garment, *moves.end);
-    else garment.bind = {};
+    if (moves.end)
+      bind_garment(garment, *moves.end);
+    else
+      garment.bind = {};
   }
 
   const BodyMoves moves;
@@ -72,7 +74,8 @@ DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, std::vector
                               const body::Body& body, const DrapeSettings& settings,
                               std::ostream& stream, Reporter& reporter) {
   Checkpoints checkpoints = job.checkpoints;
-  if (!checkpoints.file.empty()) checkpoints.motion = {motion_sha256(job.motion), job.motion_fps};
+  if (!checkpoints.file.empty())
+    checkpoints.motion = {motion_sha256(job.motion), job.motion_fps};
   MovingJob moving(job, body, job.motion_fps, 0, stream);
   DrapeReport report = under.empty()
                            ? drape_in_motion(garment, body, moving.moves, settings, moving.writer(),
@@ -80,7 +83,8 @@ DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, std::vector
                            : drape_over(garment, under, &body, settings, reporter, checkpoints,
                                         &moving.moves, moving.writer());
   moving.leave(garment);
-  for (Garment& g : under) moving.leave(g);
+  for (Garment& g : under)
+    moving.leave(g);
   return report;
 }
 
@@ -101,7 +105,8 @@ DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Ga
                                 : resume_in_motion(c, garment, body, moving.moves, moving.writer(),
                                                    reporter, job.checkpoints);
   moving.leave(garment);
-  for (Garment& g : under) moving.leave(g);
+  for (Garment& g : under)
+    moving.leave(g);
   return report;
 }
 
@@ -111,7 +116,8 @@ void refuse_document(const std::string& path) {
   if (path == "-" || !std::filesystem::is_regular_file(path))
     return; // a stream must not be read twice
   const std::string text = io::read_file(path);
-  if (!io::Json::accept(text)) return; // lines, or none yet
+  if (!io::Json::accept(text))
+    return; // lines, or none yet
   const io::Json json = io::Json::parse(text);
   if (json.is_object() && json.contains("edits") && !json["edits"].empty())
     throw input_error(
@@ -130,7 +136,8 @@ DrapeOutcome follow_edits(const DrapeJob& job, Garment& garment, const body::Bod
                               [&] { return lines.ended(); },
                               [&](const FollowFrame& f, const Garment& g) { write(f, g); }};
   FollowReport report = follow(garment, body, settings, session, reporter);
-  if (!job.edit_log.empty()) io::write_json(job.edit_log, report.log);
+  if (!job.edit_log.empty())
+    io::write_json(job.edit_log, report.log);
   io::Json document = follow_report_json(report, job.tool);
   return {std::move(report.drape), std::move(document), report.refused.size()};
 }
@@ -148,7 +155,8 @@ DrapeOutcome drape_towards(const DrapeJob& job, Garment& garment, const body::Bo
 DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment>& under,
                       const body::Body* body, const DrapeSettings& settings, std::ostream& stream,
                       Reporter& reporter) {
-  if (under.empty() && job.goal) return drape_towards(job, garment, body, reporter);
+  if (under.empty() && job.goal)
+    return drape_towards(job, garment, body, reporter);
   if (under.empty() && !job.follow.empty())
     return follow_edits(job, garment, body, settings, stream, reporter);
   DrapeReport report = [&] {
@@ -156,7 +164,8 @@ DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment
       return drape_with_motion(job, garment, under, *body, settings, stream, reporter);
     if (!under.empty())
       return drape_over(garment, under, body, settings, reporter, job.checkpoints);
-    if (job.untangle_only) return untangle_only(garment, body, settings, reporter);
+    if (job.untangle_only)
+      return untangle_only(garment, body, settings, reporter);
     return drape(garment, body, settings, reporter, {.checkpoints = job.checkpoints});
   }();
   io::Json document = report_json(report, job.tool);
@@ -171,8 +180,10 @@ DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, Garment& 
     throw input_error("checkpoint.other-run"_id, c.file, "", "this drape began without a motion",
                       "leave --motion out");
   DrapeReport report = [&] {
-    if (c.motion) return resume_with_motion(job, c, garment, under, *body, stream, reporter);
-    if (c.layers) return resume_over(c, garment, under, body, reporter, job.checkpoints);
+    if (c.motion)
+      return resume_with_motion(job, c, garment, under, *body, stream, reporter);
+    if (c.layers)
+      return resume_over(c, garment, under, body, reporter, job.checkpoints);
     return resume_drape(c, garment, body, reporter, job.checkpoints);
   }();
   io::Json document = report_json(report, job.tool);

@@ -18,13 +18,16 @@ void EditLines::take_end(const io::Node& node) {
     node.fail("drape.no-body"_id, "without a body the panels cannot be placed for a cold finish",
               "give --body, or finish warm");
   m_ended = true;
-  if (finish == "cold") m_finish = Finish::COLD;
-  else m_finish = finish == "replay" ? Finish::REPLAY : Finish::WARM;
+  if (finish == "cold")
+    m_finish = Finish::COLD;
+  else
+    m_finish = finish == "replay" ? Finish::REPLAY : Finish::WARM;
 }
 
 EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern& pattern) {
   ++m_line;
-  if (line.find_first_not_of(" \t") == std::string::npos) return {};
+  if (line.find_first_not_of(" \t") == std::string::npos)
+    return {};
   const std::string place = "line " + std::to_string(m_line);
   if (!line.starts_with('{'))
     throw input_error("edit.bad-line"_id, place, "", "is no JSON object",
@@ -38,7 +41,8 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
     m_head = json;
     m_head["edits"] = io::Json::array();
     document = json;
-    if (!node.has("edits")) document["edits"] = io::Json::array();
+    if (!node.has("edits"))
+      document["edits"] = io::Json::array();
   } else {
     if (node.at("edit").string() == "end") {
       take_end(node);
@@ -52,13 +56,15 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
   const std::size_t count = document["edits"].size();
   pattern::Pattern next = pattern;
   pattern::apply_edits(next, document, place);
-  if (count == 0) return {};
+  if (count == 0)
+    return {};
   pattern::require_sewable(next, place);
   return {count, std::move(next), std::move(document)};
 }
 
 void EditLines::log_taken(const Taken& taken) {
-  for (const io::Json& edit : taken.document["edits"]) m_log["edits"].push_back(edit);
+  for (const io::Json& edit : taken.document["edits"])
+    m_log["edits"].push_back(edit);
   m_log["length_unit"] = taken.document["length_unit"];
 }
 

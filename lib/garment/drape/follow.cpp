@@ -36,10 +36,14 @@ public:
     warm_up();
     while (!m_session.stopped() && !m_lines.ended()) {
       const auto line = m_source.next_line(m_at_rest ? IDLE_MS : 0);
-      if (line) take(*line);
-      else if (m_source.ended()) break;
-      else if (!m_at_rest) go_on(Clock::now() - m_edited < std::chrono::duration<double>(BUSY_S));
-      if (!m_session.stopped() && m_reporter.stop_requested()) m_session.interrupt();
+      if (line)
+        take(*line);
+      else if (m_source.ended())
+        break;
+      else if (!m_at_rest)
+        go_on(Clock::now() - m_edited < std::chrono::duration<double>(BUSY_S));
+      if (!m_session.stopped() && m_reporter.stop_requested())
+        m_session.interrupt();
     }
     finish();
     m_report.log = m_lines.log();
@@ -73,7 +77,8 @@ private:
       return;
     }
     Finish finish = Finish::WARM;
-    if (m_report.edits > 0) finish = m_body ? Finish::COLD : Finish::REPLAY;
+    if (m_report.edits > 0)
+      finish = m_body ? Finish::COLD : Finish::REPLAY;
     finish = m_lines.finish().value_or(finish);
     if (finish == Finish::COLD) {
       // As if nothing had hung before: friction and folds remember the path that cloth came, so
@@ -84,7 +89,8 @@ private:
     }
     // A replay is as if all edits had come at once: the rest is one of the first state and of the
     // last pattern, whatever came between and when.
-    if (finish == Finish::REPLAY) m_live.adopt(m_live.go_to_start());
+    if (finish == Finish::REPLAY)
+      m_live.adopt(m_live.go_to_start());
     m_session.rebuild_cloth(false);
     m_session.forget_steps(); // the limit is for the way to rest
     m_session.settle();
@@ -97,9 +103,11 @@ private:
     bool same_mesh = true;
     try {
       EditLines::Taken taken = m_lines.take(line, m_live.pattern());
-      if (taken.edits == 0) return;
+      if (taken.edits == 0)
+        return;
       same_mesh = m_live.adopt(std::move(*taken.next));
-      if (same_mesh) m_session.replace_rest_shape();
+      if (same_mesh)
+        m_session.replace_rest_shape();
       m_lines.log_taken(taken);
       m_report.edits += static_cast<int>(taken.edits);
     } catch (const Error& e) {
@@ -108,8 +116,10 @@ private:
       return;
     }
     m_edited = arrived;
-    if (same_mesh) answer_edit(arrived, cpu);
-    else show_remeshed(arrived, cpu);
+    if (same_mesh)
+      answer_edit(arrived, cpu);
+    else
+      show_remeshed(arrived, cpu);
   }
 
   /// The answer to an edit that asks for another mesh is that mesh, where the cloth hangs; the step
@@ -121,7 +131,8 @@ private:
     FollowFrame f = next_frame();
     f.remeshed = true;
     note_latency(f, arrived, cpu);
-    if (m_source.on_frame) m_source.on_frame(f, m_garment);
+    if (m_source.on_frame)
+      m_source.on_frame(f, m_garment);
     m_session.rebuild_cloth(true);
     go_on(true);
     m_live.ready_follower();
@@ -129,7 +140,8 @@ private:
 
   void answer_edit(Clock::time_point arrived, std::clock_t cpu) {
     m_session.forget_steps(); // a session has no step limit
-    if (!answer(FOLLOW_ANSWER_ITERATIONS)) return;
+    if (!answer(FOLLOW_ANSWER_ITERATIONS))
+      return;
     FollowFrame f = frame_of_step();
     note_latency(f, arrived, cpu);
     show(f);
@@ -141,12 +153,14 @@ private:
     m_session.forget_steps();
     const StepRequest request{
         .h = m_settings.time_step_s, .kind = StepKind::DESCEND, .largest_move_m = LARGEST_MOVE};
-    if (!(busy ? answer(BUSY_ITERATIONS) : m_session.advance(request))) return;
+    if (!(busy ? answer(BUSY_ITERATIONS) : m_session.advance(request)))
+      return;
     show(frame_of_step());
   }
 
   void show(const FollowFrame& f) {
-    if (m_source.on_frame) m_source.on_frame(f, m_garment);
+    if (m_source.on_frame)
+      m_source.on_frame(f, m_garment);
     m_session.prefetch_contacts(m_settings.time_step_s); // while no edit waits
   }
 

@@ -12,7 +12,8 @@ namespace sloper::garment {
 FrameWriter::FrameWriter(std::string where, std::string stamp, std::ostream& stream,
                          std::size_t after)
     : m_where(std::move(where)), m_stamp(std::move(stamp)), m_stream(stream) {
-  if (m_where.empty() || m_where == "-") return;
+  if (m_where.empty() || m_where == "-")
+    return;
   std::error_code failed;
   std::filesystem::create_directories(m_where, failed);
   for (const auto& entry : std::filesystem::directory_iterator(
@@ -25,7 +26,8 @@ FrameWriter::FrameWriter(std::string where, std::string stamp, std::ostream& str
   if (after > 0 && std::filesystem::exists(index)) {
     const std::string all = io::read_file(index);
     std::size_t end = 0;
-    for (; after > 0 && all.find('\n', end) != all.npos; --after) end = all.find('\n', end) + 1;
+    for (; after > 0 && all.find('\n', end) != all.npos; --after)
+      end = all.find('\n', end) + 1;
     io::write_file(index, all.substr(0, end)); // whole or not at all: this run can be killed too
     m_index.open(index, std::ios::app);
   } else {
@@ -63,7 +65,8 @@ void FrameWriter::operator()(const MotionFrame& f, const Garment& garment) {
 }
 
 void FrameWriter::write(int number, io::Json line, const Garment& garment) {
-  if (m_where.empty()) return;
+  if (m_where.empty())
+    return;
   if (m_where == "-") {
     line["x"] = io::Json::array();
     for (const Vec3& p : garment.position)

@@ -26,10 +26,12 @@ void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer,
   parallel_for(inner.size(), 128, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const collision::SignedDistance d = body.signed_distance(inner[i], NEAR_SKIN);
-      if (d.triangle < 0 || d.distance <= 0) continue;
+      if (d.triangle < 0 || d.distance <= 0)
+        continue;
       const double seen = d.distance + thickness,
                    hit = tree.first_hit(d.point, d.point + seen * d.normal) * seen;
-      if (!(hit < seen)) continue;
+      if (!(hit < seen))
+        continue;
       const double keep =
           std::min(d.distance, std::max(hit - thickness, std::min(LEAST_GAP, 0.5 * hit)));
       moved[i] = hit < d.distance ? d.distance - keep : 0;
@@ -54,41 +56,49 @@ std::size_t part_layers(std::vector<Vec3>& x, const std::vector<int>& layer,
     const auto& e = topology.edges[hit.edge];
     const Triangle& t = triangles[hit.triangle];
     const int of_edge = layer[e[0]], of_face = layer[t[0]];
-    if (of_edge == of_face) continue;
+    if (of_edge == of_face)
+      continue;
     ++count;
     const collision::SignedDistance d = body.signed_distance(hit.point, NEAR_SKIN);
-    if (d.triangle < 0) continue;
+    if (d.triangle < 0)
+      continue;
     const Vec3 push = (of_edge > of_face ? PUSH : -PUSH) * d.normal; // of the edge
     move[e[0]] += push;
     move[e[1]] += push;
-    for (int v : t) move[v] -= push;
+    for (int v : t)
+      move[v] -= push;
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double length = move[i].norm();
-    if (length <= 0) continue;
+    if (length <= 0)
+      continue;
     x[i] += std::min(1.0, PUSH / length) * move[i];
     const collision::SignedDistance d = body.signed_distance(x[i], NEAR_SKIN);
-    if (d.triangle >= 0 && d.distance < LEAST_GAP) x[i] = d.point + LEAST_GAP * d.normal;
+    if (d.triangle >= 0 && d.distance < LEAST_GAP)
+      x[i] = d.point + LEAST_GAP * d.normal;
   }
   return count;
 }
 
 } // namespace
 
-std::string layer_prefix(std::size_t layer) { return "layer " + std::to_string(layer) + ": "; }
+std::string layer_prefix(std::size_t layer) {
+  return "layer " + std::to_string(layer) + ": ";
+}
 
 Garment merge_layers(const std::vector<Garment>& garments) {
   Garment all;
   pattern::PanelMesh& p = all.panels;
   bool scaled = false;
-  for (const Garment& g : garments) scaled |= !g.rest_scale.empty();
+  for (const Garment& g : garments)
+    scaled |= !g.rest_scale.empty();
   for (std::size_t k = 0; k < garments.size(); ++k) {
     const Garment& g = garments[k];
     const std::string prefix = layer_prefix(k);
     const int vertices = static_cast<int>(p.pattern.size()),
               triangles = static_cast<int>(p.triangles.size()),
               particles = static_cast<int>(all.position.size());
-    const int panels = static_cast<int>(p.panels.size());
+    const int panels = std::ssize(p.panels);
     for (pattern::PanelInfo info : g.panels.panels) {
       all.materials[prefix + info.material] = material_of(g, info.material);
       info.material.insert(0, prefix);
@@ -96,12 +106,15 @@ Garment merge_layers(const std::vector<Garment>& garments) {
       info.layer = static_cast<int>(k);
       info.first_vertex += vertices;
       info.first_triangle += triangles;
-      for (int& v : info.outline) v += vertices;
+      for (int& v : info.outline)
+        v += vertices;
       p.panels.push_back(std::move(info));
     }
     for (pattern::MeshSeam seam : g.panels.seams) {
-      for (int& v : seam.a) v += vertices;
-      for (int& v : seam.b) v += vertices;
+      for (int& v : seam.a)
+        v += vertices;
+      for (int& v : seam.b)
+        v += vertices;
       p.seams.push_back(std::move(seam));
     }
     p.pattern.insert(p.pattern.end(), g.panels.pattern.begin(), g.panels.pattern.end());
@@ -109,7 +122,8 @@ Garment merge_layers(const std::vector<Garment>& garments) {
       id.panel += panels;
       p.ids.push_back(id);
     }
-    for (int i : g.particle_of) all.particle_of.push_back(i + particles);
+    for (int i : g.particle_of)
+      all.particle_of.push_back(i + particles);
     for (std::size_t v = 0; v < g.particle_of.size(); ++v)
       p.placed.push_back(g.position[g.particle_of[v]]);
     for (const Triangle& t : g.panels.triangles)
@@ -121,7 +135,8 @@ Garment merge_layers(const std::vector<Garment>& garments) {
     }
     const auto add = [&](const auto& from, auto& to, auto&& panel) {
       for (auto item : from) {
-        if (!panel(item).empty()) panel(item).insert(0, prefix);
+        if (!panel(item).empty())
+          panel(item).insert(0, prefix);
         to.push_back(std::move(item));
       }
     };
@@ -139,12 +154,15 @@ Garment merge_layers(const std::vector<Garment>& garments) {
     for (const pattern::PanelInfo& info :
          g.panels.panels) // a shrink without a panel is of all panels of its garment
       for (SceneShrink s : g.scene.shrink) {
-        if (!s.panel.empty() && s.panel != info.name) continue;
+        if (!s.panel.empty() && s.panel != info.name)
+          continue;
         s.panel = prefix + info.name;
         all.scene.shrink.push_back(s);
       }
-    if (all.scene.membrane.empty()) all.scene.membrane = g.scene.membrane;
-    if (all.scene.bending.empty()) all.scene.bending = g.scene.bending;
+    if (all.scene.membrane.empty())
+      all.scene.membrane = g.scene.membrane;
+    if (all.scene.bending.empty())
+      all.scene.bending = g.scene.bending;
     if (g.scene.air) {
       all.scene.air = true;
       all.scene.wind_m_s = g.scene.wind_m_s;
@@ -179,7 +197,7 @@ LayerOrder order_layers(std::vector<Garment>& garments, const collision::BodyCol
   std::vector<int> layer;
   std::vector<Triangle> triangles;
   for (std::size_t k = 0; k < garments.size(); ++k) {
-    const int first = static_cast<int>(x.size());
+    const int first = std::ssize(x);
     for (const Triangle& t : garments[k].particle_triangles())
       triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     x.insert(x.end(), garments[k].position.begin(), garments[k].position.end());
@@ -191,18 +209,21 @@ LayerOrder order_layers(std::vector<Garment>& garments, const collision::BodyCol
   for (int round = 0; round <= ROUNDS; ++round) {
     std::vector<Vec3> next = x;
     const std::size_t count = part_layers(next, layer, triangles, topology, tree, body);
-    if (round == 0) order.crossed = order.remain = count;
+    if (round == 0)
+      order.crossed = order.remain = count;
     if (count <= order.remain) {
       order.remain = count;
       best = x;
     }
-    if (count == 0) break;
+    if (count == 0)
+      break;
     x = std::move(next);
     tree.refit(x);
   }
   std::size_t at = 0;
   for (Garment& g : garments)
-    for (Vec3& p : g.position) p = best[at++];
+    for (Vec3& p : g.position)
+      p = best[at++];
   return order;
 }
 

@@ -39,7 +39,8 @@ public:
   DrapeReport run() {
     for (; m_at.alone < m_at.garments.size(); ++m_at.alone) {
       const std::optional<DrapeReport> ended = drape_alone(m_at.alone);
-      if (ended) return *ended;
+      if (ended)
+        return *ended;
     }
     return drape_together();
   }
@@ -60,13 +61,15 @@ private:
     }
     const DrapeCheckpoint& from = *m_from;
     m_from = nullptr;
-    if (from.levels) return resume_through_levels(from, garment, m_body, m_reporter, m_checkpoints);
+    if (from.levels)
+      return resume_through_levels(from, garment, m_body, m_reporter, m_checkpoints);
     return DrapeSession(inputs, from, m_reporter).run();
   }
 
   /// @return the report of a drape that was ended before its end: then all ends
   std::optional<DrapeReport> drape_alone(std::size_t k) {
-    if (!m_from && !m_at.garments[k].particle_of.empty()) return std::nullopt;
+    if (!m_from && !m_at.garments[k].particle_of.empty())
+      return std::nullopt;
     DrapeSettings alone = m_at.settings;
     const double gap = m_at.settings.contact_gap_m +
                        static_cast<double>(k) * (m_at.settings.self_thickness_m + LAYER_SLACK_M);
@@ -99,13 +102,15 @@ private:
     report.phases.insert(report.phases.begin(), {"garments alone", m_at.alone_s});
     report.wall_s += m_at.alone_s;
     const std::size_t frames = m_moves ? report.quality["motion"]["frames"].get<std::size_t>() : 0;
-    if (frames > 0) collider.set_positions(m_moves->skin(frames - 1));
+    if (frames > 0)
+      collider.set_positions(m_moves->skin(frames - 1));
     report.quality["layers"] = layers_json(collider);
     return report;
   }
 
   void note(const LayerOrder& order) {
-    if (order.tucked == 0) return;
+    if (order.tucked == 0)
+      return;
     m_at.repairs.push_back("layers: " + std::to_string(order.tucked) +
                            " inner particles lay beyond an outer garment and were tucked in, by " +
                            std::to_string(std::lround(1000 * order.farthest_m)) + " mm at most; " +
@@ -147,7 +152,8 @@ DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body,
                          const OnMotionFrame& on_frame) {
   LayersProgress at{settings, garments, 0, {}, 0};
   Checkpoints taken = checkpoints;
-  if (moves && !taken.motion) taken.motion = moves->input(); // while one is alone too
+  if (moves && !taken.motion)
+    taken.motion = moves->input(); // while one is alone too
   DrapeReport report = LayeredDrape(at, nullptr, body, reporter, taken, moves, on_frame).run();
   garments = std::move(at.garments);
   return report;

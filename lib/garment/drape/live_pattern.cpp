@@ -36,9 +36,11 @@ LivePattern::LivePattern(Garment& garment) : m_garment(garment) {
 void LivePattern::note_untaped() {
   m_untaped = m_garment.rest_scale;
   const std::vector<std::array<double, 3>> scale = pattern::tape_scales(m_garment.panels);
-  if (scale.empty()) return;
+  if (scale.empty())
+    return;
   for (std::size_t f = 0; f < m_untaped.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) m_untaped[f][k] /= scale[f][k];
+    for (std::size_t k = 0; k < 3; ++k)
+      m_untaped[f][k] /= scale[f][k];
 }
 
 /// Elastic tapes on top of the rest lengths that the garment came with.
@@ -48,13 +50,15 @@ void LivePattern::tape() {
     scale = m_untaped;
   } else {
     for (std::size_t f = 0; f < m_untaped.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k) scale[f][k] *= m_untaped[f][k];
+      for (std::size_t k = 0; k < 3; ++k)
+        scale[f][k] *= m_untaped[f][k];
   }
   m_garment.rest_scale = std::move(scale);
 }
 
 void LivePattern::ready_follower() {
-  if (!m_follower) m_follower.emplace(m_pattern, m_garment.panels);
+  if (!m_follower)
+    m_follower.emplace(m_pattern, m_garment.panels);
 }
 
 pattern::PanelMesh LivePattern::mesh_of(const pattern::Pattern& pattern) {

@@ -11,7 +11,8 @@ namespace {
 /// part of the report, and of checkpoints.
 DrapeReport go_on_in_motion(DrapeReport rest, SessionInputs inputs, const DrapeSettings& settings,
                             Reporter& reporter) {
-  if (!rest.converged && rest.stop_reason != StopReason::AT_REST_UNCLEAN) return rest;
+  if (!rest.converged && rest.stop_reason != StopReason::AT_REST_UNCLEAN)
+    return rest;
   LevelsProgress at{.settings = settings, .rung = "", .on_given_mesh = false, .before = {}};
   at.before = rest;
   inputs.request.checkpoints.levels = &at;
@@ -28,10 +29,12 @@ DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const Body
                             Reporter& reporter, const DrapeRequest& request) {
   SessionInputs inputs{
       .garment = garment, .body = &body, .moves = &moves, .on_frame = on_frame, .request = request};
-  if (!inputs.request.checkpoints.motion) inputs.request.checkpoints.motion = moves.input();
+  if (!inputs.request.checkpoints.motion)
+    inputs.request.checkpoints.motion = moves.input();
   const bool through_levels = settings.levels > 1 && garment.particle_of.empty() &&
                               refusal_of_levels(garment, &body, settings).empty();
-  if (!through_levels) return DrapeSession(inputs, settings, reporter).run();
+  if (!through_levels)
+    return DrapeSession(inputs, settings, reporter).run();
   DrapeReport rest = drape_through_levels(garment, &body, settings, reporter, inputs.request);
   return go_on_in_motion(std::move(rest), inputs, settings, reporter);
 }
@@ -45,7 +48,8 @@ DrapeReport resume_in_motion(const DrapeCheckpoint& from, Garment& garment, cons
                        .on_frame = on_frame,
                        .request = {.checkpoints = checkpoints}};
   inputs.request.checkpoints.motion = from.motion;
-  if (!from.levels) return DrapeSession(inputs, from, reporter).run();
+  if (!from.levels)
+    return DrapeSession(inputs, from, reporter).run();
   if (!from.levels->rung.empty()) {
     from.check_moves(&moves);
     DrapeReport rest = resume_through_levels(from, garment, &body, reporter, checkpoints);

@@ -34,13 +34,15 @@ void resolve(DrapeSession& session, Garment& garment, Reporter& reporter) {
     const PhaseTimer timer(session.telemetry(), "untangle");
     least = session.resolver().resolve_all(MAX_RESOLVE_ALL_ROUNDS, rounds);
   }
-  if (least == 0 || !session.has_collider() || reporter.stop_requested()) return;
+  if (least == 0 || !session.has_collider() || reporter.stop_requested())
+    return;
   const std::vector<Vec3> shallow = garment.position;
   garment.position = start;
   session.push_apart(MAX_PUSH_STEPS);
   const std::size_t now = session.resolver().resolve_all(MAX_RESOLVE_ALL_ROUNDS,
                                                          rounds); // what the push leaves is shallow
-  if (now >= least) garment.position = shallow;
+  if (now >= least)
+    garment.position = shallow;
 }
 
 } // namespace
@@ -66,8 +68,10 @@ DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeS
   DrapeReport report = session.finish();
   const io::Json after = counts_json(garment, session.full_skin());
   report.converged = is_clean(after);
-  if (!report.converged) report.stop_reason = StopReason::CROSSINGS_REMAIN;
-  else report.stop_reason = moved == 0 ? StopReason::NOTHING_CROSSED : StopReason::NOTHING_CROSSES;
+  if (!report.converged)
+    report.stop_reason = StopReason::CROSSINGS_REMAIN;
+  else
+    report.stop_reason = moved == 0 ? StopReason::NOTHING_CROSSED : StopReason::NOTHING_CROSSES;
   garment.converged = was_at_rest && moved == 0;
   report.quality["untangled"] = {
       {"before", before}, {"after", after}, {"particles_moved", moved}, {"farthest_m", farthest}};
@@ -79,8 +83,10 @@ DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeS
             counts["faces_through_body"].dump() + " faces through the body, " +
             counts["vertices_inside_body"].dump() + " vertices inside it, " +
             counts["self_intersections"].dump() + " self intersections";
-  if (is_clean(before) && is_clean(after)) reporter.info(text);
-  else reporter.warning({"drape.crossings"_id, text});
+  if (is_clean(before) && is_clean(after))
+    reporter.info(text);
+  else
+    reporter.warning({"drape.crossings"_id, text});
   return report;
 }
 

@@ -46,7 +46,8 @@ void zip(const std::vector<int>& p, const std::vector<int>& q, Ring& ring) {
   };
   std::size_t first = 0;
   for (std::size_t j = 0; j < q.size(); ++j)
-    if ((flat[q[j]] - flat[p[0]]).norm() < (flat[q[first]] - flat[p[0]]).norm()) first = j;
+    if ((flat[q[j]] - flat[p[0]]).norm() < (flat[q[first]] - flat[p[0]]).norm())
+      first = j;
   for (std::size_t i = 0, j = 0; i < p.size() || j < q.size();) {
     const int pi = p[i % p.size()], pn = p[(i + 1) % p.size()], qj = q[(first + j) % q.size()],
               qn = q[(first + j + 1) % q.size()];
@@ -75,11 +76,12 @@ Ring make_ring(const DrapemeterSetup& setup) {
     ring.particles.emplace_back();
     for (int i = 0; i < n; ++i) {
       const double a = 2 * units::PI * (i + offset) / n;
-      ring.particles.back().push_back(static_cast<int>(ring.flat.size()));
+      ring.particles.back().push_back(std::ssize(ring.flat));
       ring.flat.emplace_back(r * std::cos(a), r * std::sin(a));
     }
   }
-  for (int k = 0; k <= rings; ++k) zip(ring.particles[k], ring.particles[k + 1], ring);
+  for (int k = 0; k <= rings; ++k)
+    zip(ring.particles[k], ring.particles[k + 1], ring);
   return ring;
 }
 
@@ -113,8 +115,10 @@ std::pair<int, bool> bring_to_rest(cloth::ClothSolver& solver) {
   o.largest_move_m = 0.02;
   for (int k = 0; k < MOST_STEPS; ++k) {
     const cloth::StepResult r = solver.step(o);
-    if (!r.finite) return {k, false};
-    if (r.largest_move_m / o.h < STILL_M_S && o.h > 0.5 * LARGEST_STEP_S) return {k + 1, true};
+    if (!r.finite)
+      return {k, false};
+    if (r.largest_move_m / o.h < STILL_M_S && o.h > 0.5 * LARGEST_STEP_S)
+      return {k + 1, true};
     o.h =
         r.largest_move_m < 0.005 ? std::min(1.3 * o.h, LARGEST_STEP_S) : std::max(0.8 * o.h, 0.005);
   }
@@ -142,7 +146,8 @@ DrapemeterResult drape_specimen(const cloth::Fabric& fabric, const DrapemeterSet
   }
   lower_unevenly(setup, ring, seed, x);
   cloth::ClothSolver solver(mesh, x);
-  if (std::string(setup.membrane) == "fem") solver.emplace<cloth::MembraneEffect>(mesh);
+  if (std::string(setup.membrane) == "fem")
+    solver.emplace<cloth::MembraneEffect>(mesh);
   else {
     solver.emplace<cloth::EdgeSpringEffect>(mesh);
     solver.emplace<cloth::ShearEffect>(mesh);
@@ -151,7 +156,8 @@ DrapemeterResult drape_specimen(const cloth::Fabric& fabric, const DrapemeterSet
   // tenth short of the energy. That made coarse meshes softer.
   if (cloth::bends_by_direction(fabric))
     solver.emplace<cloth::OrthotropicBendingEffect>(mesh, std::vector<double>(mesh.hinges.size()));
-  else solver.emplace<cloth::BendingEffect>(mesh);
+  else
+    solver.emplace<cloth::BendingEffect>(mesh);
   solver.emplace<cloth::GravityEffect>(mesh, Vec3(0, -units::GRAVITY, 0));
   solver.emplace<cloth::PinsEffect>(pins);
 
@@ -163,7 +169,8 @@ DrapemeterResult drape_specimen(const cloth::Fabric& fabric, const DrapemeterSet
                                    setup.disc_radius_m * setup.disc_radius_m);
   out.coefficient =
       shadow_area(out.triangles, out.position, SHADOW_CELL, setup.disc_radius_m) / free;
-  for (int p : ring.particles.back()) out.rim.push_back(out.position[p]);
+  for (int p : ring.particles.back())
+    out.rim.push_back(out.position[p]);
   out.folds = count_folds(out.rim);
   for (const cloth::EdgeSpring& s : mesh.springs)
     out.largest_strain = std::max(

@@ -39,13 +39,15 @@ struct Sample {
 
 double mean_of(const std::vector<double>& v) {
   double sum = 0;
-  for (double x : v) sum += x;
+  for (double x : v)
+    sum += x;
   return sum / static_cast<double>(v.size());
 }
 double sd_of(const std::vector<double>& v) {
   double sum = 0;
   const double mean = mean_of(v);
-  for (double x : v) sum += (x - mean) * (x - mean);
+  for (double x : v)
+    sum += (x - mean) * (x - mean);
   return v.size() > 1 ? std::sqrt(sum / static_cast<double>(v.size() - 1)) : 0;
 }
 
@@ -60,9 +62,11 @@ Line regression(const std::vector<Sample>& samples, double decade) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   std::vector<Sample> use;
   for (const Sample& s : samples)
-    if (std::abs(s.decade - decade) <= NEAR) use.push_back(s);
+    if (std::abs(s.decade - decade) <= NEAR)
+      use.push_back(s);
   line.n = static_cast<int>(use.size());
-  if (line.n == 0) return line;
+  if (line.n == 0)
+    return line;
   for (const Sample& s : use) {
     sx += s.decade / line.n;
     sy += s.coefficient / line.n;
@@ -104,13 +108,15 @@ std::vector<Sample> drape_at(const Material& base, const DrapemeterSetup& setup,
   });
   std::vector<Sample> samples;
   for (const DrapemeterResult& r : results)
-    if (r.at_rest) samples.push_back({decade, r.coefficient, static_cast<double>(r.folds)});
+    if (r.at_rest)
+      samples.push_back({decade, r.coefficient, static_cast<double>(r.folds)});
   return samples;
 }
 
 double mean_coefficient(const std::vector<Sample>& samples) {
   double sum = 0;
-  for (const Sample& s : samples) sum += s.coefficient / static_cast<double>(samples.size());
+  for (const Sample& s : samples)
+    sum += s.coefficient / static_cast<double>(samples.size());
   return sum;
 }
 
@@ -124,7 +130,8 @@ void fit_overhangs(const FabricTests& tests, MaterialFit& fit) {
   const double weight = tests.base.density_kg_m2 * units::GRAVITY;
   for (int k = 0; k < 3; ++k) {
     const std::vector<double>& lengths = tests.overhang_m[k];
-    if (lengths.empty()) continue;
+    if (lengths.empty())
+      continue;
     const double length = mean_of(lengths), n = static_cast<double>(lengths.size());
     const double one = lengths.size() > 2 ? std::max(sd_of(lengths), 1e-4) : tests.length_error_m;
     const double value = weight * std::pow(0.5 * length, 3);
@@ -136,7 +143,8 @@ void fit_overhangs(const FabricTests& tests, MaterialFit& fit) {
 void set_directions(MaterialFit& fit) {
   Material& m = fit.material;
   const auto& [warp, weft, bias] = fit.from_overhang;
-  if (!warp && !weft) return;
+  if (!warp && !weft)
+    return;
   m.bend_warp_n_m = warp ? warp->value : weft->value;
   m.bend_weft_n_m = weft ? weft->value : warp->value;
   m.bend_bias_n_m = bias ? cloth::bias_of_strip(m.bend_warp_n_m, m.bend_weft_n_m, bias->value) : 0;
@@ -166,7 +174,8 @@ public:
       m_reporter.progress("fit", static_cast<double>(round) / (ROUNDS + 1));
       add(drape_at(m_fit.material, m_tests.setup, decade,
                    1 + 100 * static_cast<std::uint64_t>(round)));
-      if (m_samples.empty()) break;
+      if (m_samples.empty())
+        break;
       line = regression(m_samples, decade);
       const double slope = line.slope > LEAST_SLOPE ? line.slope : TYPICAL_SLOPE;
       const double found = line.middle + (target - line.at) / slope;
@@ -194,13 +203,15 @@ private:
 
   /// How far the result moves when shear is off by its error, decades.
   double shear_decades(double decade, const Line& line) {
-    if (!(m_tests.shear_error > 0) || !(m_tests.base.shear_n_m > 0)) return 0;
+    if (!(m_tests.shear_error > 0) || !(m_tests.base.shear_n_m > 0))
+      return 0;
     Material other = m_fit.material;
     other.shear_n_m *= 1 + m_tests.shear_error;
     const auto stiffer = drape_at(other, m_tests.setup, decade, 1),
                plain = drape_at(m_fit.material, m_tests.setup, decade, 1);
     m_fit.simulations += 2 * DRAPES;
-    if (stiffer.size() < DRAPES || plain.size() < DRAPES) return 0;
+    if (stiffer.size() < DRAPES || plain.size() < DRAPES)
+      return 0;
     return std::abs(mean_coefficient(stiffer) - mean_coefficient(plain)) / line.slope;
   }
 
@@ -237,12 +248,14 @@ private:
     if (sd > USELESS_DECADES)
       m_fit.cannot_tell.push_back("bending from the drape: its error is more than a factor of two; "
                                   "drape the specimen more often");
-    if (!m_tests.folds.empty()) compare_folds();
+    if (!m_tests.folds.empty())
+      compare_folds();
   }
 
   void compare_folds() {
     double mean = 0;
-    for (int f : m_tests.folds) mean += f / static_cast<double>(m_tests.folds.size());
+    for (int f : m_tests.folds)
+      mean += f / static_cast<double>(m_tests.folds.size());
     if (std::abs(mean - m_fit.folds) > 2.5) {
       char text[120];
       std::snprintf(text, sizeof text,
@@ -263,7 +276,8 @@ void combine(MaterialFit& fit) {
   const bool drape_counts =
       fit.from_drape &&
       fit.from_drape->sd < std::log(10.0) * USELESS_DECADES * fit.from_drape->value;
-  if (!drape_counts) return;
+  if (!drape_counts)
+    return;
   if (!fit.mean) {
     fit.mean = fit.from_drape;
   } else {
@@ -332,10 +346,13 @@ io::Json material_fit_json(const MaterialFit& fit, const FabricTests& tests,
   const auto value = [](const FittedValue& v) {
     return io::Json{{"value", v.value}, {"sd", v.sd}};
   };
-  if (fit.mean) j["bend_n_m"] = value(*fit.mean);
+  if (fit.mean)
+    j["bend_n_m"] = value(*fit.mean);
   for (int k = 0; k < 3; ++k)
-    if (fit.from_overhang[k]) j["overhang"][DIRECTION_NAMES[k]] = value(*fit.from_overhang[k]);
-  if (fit.from_drape) j["drape"] = value(*fit.from_drape);
+    if (fit.from_overhang[k])
+      j["overhang"][DIRECTION_NAMES[k]] = value(*fit.from_overhang[k]);
+  if (fit.from_drape)
+    j["drape"] = value(*fit.from_drape);
   if (!tests.coefficient.empty()) {
     j["coefficient_percent"] = {{"measured", 100 * mean_of(tests.coefficient)},
                                 {"drapes", tests.coefficient.size()},
@@ -344,7 +361,8 @@ io::Json material_fit_json(const MaterialFit& fit, const FabricTests& tests,
     j["folds"] = {{"model", fit.folds}};
     if (!tests.folds.empty()) {
       double mean = 0;
-      for (int f : tests.folds) mean += f / static_cast<double>(tests.folds.size());
+      for (int f : tests.folds)
+        mean += f / static_cast<double>(tests.folds.size());
       j["folds"]["measured"] = mean;
     }
   }

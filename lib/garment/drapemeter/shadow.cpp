@@ -15,7 +15,8 @@ double side_of(const Vec2& a, const Vec2& b, const Vec2& q) {
 
 double shadow_area(const std::vector<Triangle>& triangles, const std::vector<Vec3>& position,
                    double cell_m, double hole_radius_m) {
-  if (triangles.empty()) return 0;
+  if (triangles.empty())
+    return 0;
   Vec2 low(1e300, 1e300), high(-1e300, -1e300);
   for (const Vec3& p : position) {
     low = low.cwiseMin(Vec2(p.x(), p.z()));
@@ -29,7 +30,8 @@ double shadow_area(const std::vector<Triangle>& triangles, const std::vector<Vec
   };
   for (const Triangle& t : triangles) {
     Vec2 p[3];
-    for (int k = 0; k < 3; ++k) p[k] = Vec2(position[t[k]].x(), position[t[k]].z());
+    for (int k = 0; k < 3; ++k)
+      p[k] = Vec2(position[t[k]].x(), position[t[k]].z());
     const Vec2 first = p[0].cwiseMin(p[1]).cwiseMin(p[2]),
                last = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
     for (auto r = cell(first.y(), low.y(), rows); r <= cell(last.y(), low.y(), rows); ++r)
@@ -39,17 +41,19 @@ double shadow_area(const std::vector<Triangle>& triangles, const std::vector<Vec
         const double a = side_of(p[0], p[1], q), b = side_of(p[1], p[2], q),
                      d = side_of(p[2], p[0], q);
         if ((a >= 0 && b >= 0 && d >= 0) || (a <= 0 && b <= 0 && d <= 0))
-          dark[static_cast<std::size_t>(r * columns + c)] = q.norm() >= hole_radius_m;
+          dark[r * columns + c] = q.norm() >= hole_radius_m;
       }
   }
   return static_cast<double>(std::count(dark.begin(), dark.end(), 1)) * cell_m * cell_m;
 }
 
 int count_folds(const std::vector<Vec3>& rim, double swing_m) {
-  if (rim.size() < 3) return 0;
+  if (rim.size() < 3)
+    return 0;
   const auto n = static_cast<double>(rim.size());
   Vec2 middle = Vec2::Zero();
-  for (const Vec3& p : rim) middle += Vec2(p.x(), p.z()) / n;
+  for (const Vec3& p : rim)
+    middle += Vec2(p.x(), p.z()) / n;
   std::vector<double> radius;
   double mean = 0;
   for (const Vec3& p : rim) {
@@ -59,7 +63,8 @@ int count_folds(const std::vector<Vec3>& rim, double swing_m) {
   // It begins where the line is surely inside, so that a fold over the start counts once.
   const auto start =
       static_cast<std::size_t>(std::min_element(radius.begin(), radius.end()) - radius.begin());
-  if (radius[start] > mean - swing_m) return 0;
+  if (radius[start] > mean - swing_m)
+    return 0;
   int folds = 0;
   bool outside = false;
   for (std::size_t k = 0; k < radius.size(); ++k) {

@@ -29,7 +29,9 @@ struct Grid {
   char at(int x, int y) const { return on[static_cast<std::size_t>(y) * width + x]; }
 };
 
-int grey_of(const std::uint8_t* p) { return (299 * p[0] + 587 * p[1] + 114 * p[2] + 500) / 1000; }
+int grey_of(const std::uint8_t* p) {
+  return (299 * p[0] + 587 * p[1] + 114 * p[2] + 500) / 1000;
+}
 
 /// Otsu's threshold: greys up to it are the darker class. -1 where there is but one grey.
 int otsu(const std::array<double, GREYS>& count) {
@@ -43,7 +45,8 @@ int otsu(const std::array<double, GREYS>& count) {
   for (int g = 0; g + 1 < GREYS; ++g) {
     below += count[g];
     below_sum += g * count[g];
-    if (below <= 0 || below >= all) continue;
+    if (below <= 0 || below >= all)
+      continue;
     const double a = below_sum / below, b = (sum - below_sum) / (all - below),
                  between = below * (all - below) * (a - b) * (a - b);
     if (between > best) {
@@ -67,8 +70,10 @@ std::size_t mark_piece(const Grid& grid, int x, int y, std::vector<int>& label, 
     ++count;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
       const int qx = px + dx, qy = py + dy;
-      if (qx < 0 || qy < 0 || qx >= grid.width || qy >= grid.height) continue;
-      if (label[at(qx, qy)] || grid.at(qx, qy) != value) continue;
+      if (qx < 0 || qy < 0 || qx >= grid.width || qy >= grid.height)
+        continue;
+      if (label[at(qx, qy)] || grid.at(qx, qy) != value)
+        continue;
       label[at(qx, qy)] = mark;
       open.push_back({qx, qy});
     }
@@ -95,7 +100,8 @@ Blob blob_of(const Grid& grid) {
         ++b.area;
         b.middle += Vec2(x, y);
       }
-  if (b.area > 0) b.middle /= b.area;
+  if (b.area > 0)
+    b.middle /= b.area;
   return b;
 }
 
@@ -104,7 +110,8 @@ Grid cloth_of(const io::Image& picture, const std::string& name) {
   const int w = picture.width, h = picture.height;
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x)
-      if (picture.at(x, y)[3] > 127) ++count[grey_of(picture.at(x, y))];
+      if (picture.at(x, y)[3] > 127)
+        ++count[grey_of(picture.at(x, y))];
   const int threshold = otsu(count);
   Grid dark{w, h, std::vector<char>(static_cast<std::size_t>(w) * h, 0)};
   std::vector<char> clear(dark.on.size(), 0);
@@ -115,7 +122,8 @@ Grid cloth_of(const io::Image& picture, const std::string& name) {
       dark.at(x, y) = seen && grey_of(picture.at(x, y)) <= threshold;
       transparent += !seen;
       clear[static_cast<std::size_t>(y) * w + x] = !seen;
-      if (x > 0 && y > 0 && x + 1 < w && y + 1 < h) continue;
+      if (x > 0 && y > 0 && x + 1 < w && y + 1 < h)
+        continue;
       ++border;
       border_dark += dark.at(x, y);
     }
@@ -132,7 +140,8 @@ Grid cloth_of(const io::Image& picture, const std::string& name) {
   int pieces = 0, largest = 0;
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
-      if (!dark.at(x, y) || label[static_cast<std::size_t>(y) * w + x]) continue;
+      if (!dark.at(x, y) || label[static_cast<std::size_t>(y) * w + x])
+        continue;
       const std::size_t area = mark_piece(dark, x, y, label, ++pieces);
       if (area > most) {
         most = area;
@@ -143,7 +152,8 @@ Grid cloth_of(const io::Image& picture, const std::string& name) {
     throw input_error("drapemeter.bad-picture"_id, name, "", "there is no cloth to be seen",
                       "give a picture from above");
   Grid best{w, h, std::vector<char>(dark.on.size(), 0)};
-  for (std::size_t k = 0; k < label.size(); ++k) best.on[k] = label[k] == largest;
+  for (std::size_t k = 0; k < label.size(); ++k)
+    best.on[k] = label[k] == largest;
   for (int x = 0; x < w; ++x)
     if (best.at(x, 0) || best.at(x, h - 1))
       throw input_error("drapemeter.bad-picture"_id, name, "",
@@ -153,7 +163,8 @@ Grid cloth_of(const io::Image& picture, const std::string& name) {
       throw input_error("drapemeter.bad-picture"_id, name, "",
                         "the cloth reaches the picture's border", "show all of it");
   const Grid ground = piece(best, 0, 0);
-  for (std::size_t k = 0; k < best.on.size(); ++k) best.on[k] = !ground.on[k];
+  for (std::size_t k = 0; k < best.on.size(); ++k)
+    best.on[k] = !ground.on[k];
   return best;
 }
 
@@ -164,7 +175,8 @@ double scale_by_disc(const io::Image& picture, const Grid& cloth, const std::str
   std::array<double, GREYS> count{};
   for (int y = 0; y < cloth.height; ++y)
     for (int x = 0; x < cloth.width; ++x)
-      if (cloth.at(x, y)) ++count[grey_of(picture.at(x, y))];
+      if (cloth.at(x, y))
+        ++count[grey_of(picture.at(x, y))];
   const int threshold = otsu(count);
   const Blob whole = blob_of(cloth);
   const int cx = static_cast<int>(whole.middle.x()), cy = static_cast<int>(whole.middle.y());
@@ -173,7 +185,8 @@ double scale_by_disc(const io::Image& picture, const Grid& cloth, const std::str
   const bool middle_is_dark = grey_of(picture.at(cx, cy)) <= threshold;
   for (int y = 0; y < cloth.height; ++y)
     for (int x = 0; x < cloth.width; ++x) {
-      if (!cloth.at(x, y)) continue;
+      if (!cloth.at(x, y))
+        continue;
       const int grey = grey_of(picture.at(x, y));
       const bool same = (grey <= threshold) == middle_is_dark;
       alike.at(x, y) = same;
@@ -190,7 +203,8 @@ double scale_by_disc(const io::Image& picture, const Grid& cloth, const std::str
   double farthest = 0;
   for (int y = 0; y < disc.height; ++y)
     for (int x = 0; x < disc.width; ++x)
-      if (disc.at(x, y)) farthest = std::max(farthest, (Vec2(x, y) - blob.middle).norm());
+      if (disc.at(x, y))
+        farthest = std::max(farthest, (Vec2(x, y) - blob.middle).norm());
   const double cloth_radius = std::sqrt(whole.area / units::PI);
   if (farthest > ROUND * radius + 1 || (blob.middle - whole.middle).norm() > CENTRED * cloth_radius)
     throw input_error("drapemeter.bad-picture"_id, name, "", "the cloth's middle is no round disc",
@@ -209,8 +223,10 @@ std::vector<double> outline_of(const Grid& cloth, const Vec2& middle) {
     for (double r = 0; r < reach; r += 0.5) {
       const Vec2 q = middle + r * direction;
       const auto x = std::lround(q.x()), y = std::lround(q.y());
-      if (x < 0 || y < 0 || x >= cloth.width || y >= cloth.height) break;
-      if (cloth.at(static_cast<int>(x), static_cast<int>(y))) farthest = r;
+      if (x < 0 || y < 0 || x >= cloth.width || y >= cloth.height)
+        break;
+      if (cloth.at(static_cast<int>(x), static_cast<int>(y)))
+        farthest = r;
     }
     radius.push_back(farthest);
   }
@@ -267,7 +283,8 @@ io::Image draw_silhouette(const std::vector<Triangle>& triangles, const std::vec
   };
   for (const Triangle& t : triangles) {
     Vec2 p[3];
-    for (int k = 0; k < 3; ++k) p[k] = Vec2(position[t[k]].x(), position[t[k]].z());
+    for (int k = 0; k < 3; ++k)
+      p[k] = Vec2(position[t[k]].x(), position[t[k]].z());
     const auto side = [](const Vec2& a, const Vec2& b, const Vec2& q) {
       return (b.x() - a.x()) * (q.y() - a.y()) - (b.y() - a.y()) * (q.x() - a.x());
     };
@@ -276,12 +293,14 @@ io::Image draw_silhouette(const std::vector<Triangle>& triangles, const std::vec
       for (int x = pixel(low.x()); x <= pixel(high.x()); ++x) {
         const Vec2 q(middle(x), middle(y));
         const double a = side(p[0], p[1], q), b = side(p[1], p[2], q), c = side(p[2], p[0], q);
-        if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)) paint(x, y, CLOTH_GREY);
+        if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
+          paint(x, y, CLOTH_GREY);
       }
   }
   for (int y = 0; y < side_px; ++y)
     for (int x = 0; x < side_px; ++x)
-      if (Vec2(middle(x), middle(y)).norm() < 0.5 * disc_m) paint(x, y, DISC_GREY);
+      if (Vec2(middle(x), middle(y)).norm() < 0.5 * disc_m)
+        paint(x, y, DISC_GREY);
   return image;
 }
 

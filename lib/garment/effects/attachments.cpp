@@ -25,12 +25,14 @@ std::vector<cloth::Attachment> attachments_of(const Garment& garment, const body
 }
 
 EffectChoice choose_attachments(const EffectFacts& facts) {
-  if (!facts.scene.attachments.empty()) return {true, "the scene has elastic attachments"};
+  if (!facts.scene.attachments.empty())
+    return {true, "the scene has elastic attachments"};
   return {false, "the scene has no attachments"};
 }
 
 void add_attachments(EffectBuild& build) {
-  if (build.open_seams) return;
+  if (build.open_seams)
+    return;
   build.solver.emplace<cloth::AttachmentsEffect>(attachments_of(build.garment, build.body));
 }
 

@@ -5,12 +5,14 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_body_contact(const EffectFacts& facts) {
-  if (facts.touches_body) return {true, "there is a body"};
+  if (facts.touches_body)
+    return {true, "there is a body"};
   return {false, "there is no body"};
 }
 
 void add_body_contact(EffectBuild& build) {
-  if (!build.collider) return;
+  if (!build.collider)
+    return;
   cloth::BodyContactOptions options;
   options.gap_m = build.settings.contact_gap_m;
   options.level = static_cast<cloth::ContactLevel>(build.settings.contact_level);

@@ -15,14 +15,16 @@ std::vector<double> shares_along(const Garment& garment, const std::vector<int>&
   for (std::size_t k = 0; k + 1 < run.size(); ++k)
     at.push_back(at.back() +
                  (garment.panels.pattern[run[k + 1]] - garment.panels.pattern[run[k]]).norm());
-  for (double& a : at) a /= std::max(at.back(), 1e-12);
+  for (double& a : at)
+    a /= std::max(at.back(), 1e-12);
   return at;
 }
 
 int nearest(const std::vector<double>& shares, double share) {
   int best = 0;
   for (std::size_t k = 0; k < shares.size(); ++k)
-    if (std::abs(shares[k] - share) < std::abs(shares[best] - share)) best = static_cast<int>(k);
+    if (std::abs(shares[k] - share) < std::abs(shares[best] - share))
+      best = static_cast<int>(k);
   return best;
 }
 
@@ -38,19 +40,22 @@ std::vector<cloth::Closure> closures_of(const Garment& garment, double apart) {
       const double share = c.count > 0 ? evenly : along_a[k];
       const int i = particle_at(garment, a[nearest(along_a, share)]),
                 j = particle_at(garment, b[nearest(along_b, share)]);
-      if (i != j) closures.push_back({i, j, apart, c.stiffness_n_m});
+      if (i != j)
+        closures.push_back({i, j, apart, c.stiffness_n_m});
     }
   }
   return closures;
 }
 
 EffectChoice choose_closures(const EffectFacts& facts) {
-  if (!facts.scene.closures.empty()) return {true, "the scene has buttons or a zip"};
+  if (!facts.scene.closures.empty())
+    return {true, "the scene has buttons or a zip"};
   return {false, "the scene has no closures"};
 }
 
 void add_closures(EffectBuild& build) {
-  if (build.open_seams) return; // what is sewn is closed afterwards
+  if (build.open_seams)
+    return; // what is sewn is closed afterwards
   build.solver.emplace<cloth::ClosuresEffect>(
       closures_of(build.garment, 2 * build.settings.self_thickness_m));
 }

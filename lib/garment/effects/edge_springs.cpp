@@ -6,7 +6,8 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_edge_springs(const EffectFacts& facts) {
-  if (facts.is_fem || facts.is_triangles) return {false, "another model carries the stretch"};
+  if (facts.is_fem || facts.is_triangles)
+    return {false, "another model carries the stretch"};
   return {true, "cloth resists stretch"};
 }
 

@@ -14,19 +14,22 @@ std::vector<cloth::BandLink> bands_of(const Garment& garment) {
       const int i = particle_at(garment, run[k]), j = particle_at(garment, run[k + 1]);
       const double length =
           (garment.panels.pattern[run[k + 1]] - garment.panels.pattern[run[k]]).norm();
-      if (i != j && length > 0) links.push_back({i, j, band.ratio * length, band.strength_n});
+      if (i != j && length > 0)
+        links.push_back({i, j, band.ratio * length, band.strength_n});
     }
   }
   return links;
 }
 
 EffectChoice choose_elastic_bands(const EffectFacts& facts) {
-  if (!facts.scene.bands.empty()) return {true, "the scene has elastic bands"};
+  if (!facts.scene.bands.empty())
+    return {true, "the scene has elastic bands"};
   return {false, "the scene has no elastic bands"};
 }
 
 void add_elastic_bands(EffectBuild& build) {
-  if (build.open_seams) return;
+  if (build.open_seams)
+    return;
   build.solver.emplace<cloth::ElasticBandEffect>(bands_of(build.garment));
 }
 

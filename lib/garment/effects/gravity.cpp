@@ -6,7 +6,8 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_gravity(const EffectFacts& facts) {
-  if (facts.settings.gravity_m_s2 > 0) return {true, "the scene has gravity"};
+  if (facts.settings.gravity_m_s2 > 0)
+    return {true, "the scene has gravity"};
   return {false, "gravity is 0"};
 }
 

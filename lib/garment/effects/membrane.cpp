@@ -6,11 +6,14 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_membrane(const EffectFacts& facts) {
-  if (facts.is_fem) return {true, "the scene chose finite elements"};
+  if (facts.is_fem)
+    return {true, "the scene chose finite elements"};
   return {false, "the scene did not choose finite elements"};
 }
 
-void add_membrane(EffectBuild& build) { build.solver.emplace<cloth::MembraneEffect>(build.mesh); }
+void add_membrane(EffectBuild& build) {
+  build.solver.emplace<cloth::MembraneEffect>(build.mesh);
+}
 
 } // namespace
 

@@ -24,7 +24,8 @@ std::vector<cloth::Pin> pins_of(const Garment& garment) {
 }
 
 EffectChoice choose_pins(const EffectFacts& facts) {
-  if (!facts.scene.pins.empty()) return {true, "the scene has pins"};
+  if (!facts.scene.pins.empty())
+    return {true, "the scene has pins"};
   return {false, "the scene has no pins"};
 }
 

@@ -6,13 +6,15 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_pressure(const EffectFacts& facts) {
-  if (facts.scene.pressure_pa != 0) return {true, "the scene has pressure"};
+  if (facts.scene.pressure_pa != 0)
+    return {true, "the scene has pressure"};
   return {false, "the pressure is 0"};
 }
 
 void add_pressure(EffectBuild& build) {
   const double pressure_pa = build.garment.scene.pressure_pa;
-  if (build.open_seams || pressure_pa == 0) return;
+  if (build.open_seams || pressure_pa == 0)
+    return;
   build.solver.emplace<cloth::PressureEffect>(build.mesh.particle_triangles(), pressure_pa);
 }
 

@@ -17,9 +17,11 @@ EffectChoice choose_self_contact(const EffectFacts& facts) {
 void add_self_contact(EffectBuild& build) {
   cloth::SelfContactOptions options;
   options.thickness_m = build.settings.self_thickness_m;
-  if (build.open_seams) options.search_m = SEW_SEARCH * build.mesh.mean_edge();
+  if (build.open_seams)
+    options.search_m = SEW_SEARCH * build.mesh.mean_edge();
   std::vector<int> classes;
-  if (build.open_seams) classes = seam_classes(build.garment);
+  if (build.open_seams)
+    classes = seam_classes(build.garment);
   build.handles.self_contact =
       &build.solver.emplace<cloth::SelfContactEffect>(build.mesh, options, std::move(classes));
 }

@@ -6,12 +6,16 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_shear(const EffectFacts& facts) {
-  if (facts.is_fem) return {false, "the finite elements carry shear"};
-  if (!facts.has_shear) return {false, "no fabric has shear stiffness"};
+  if (facts.is_fem)
+    return {false, "the finite elements carry shear"};
+  if (!facts.has_shear)
+    return {false, "no fabric has shear stiffness"};
   return {true, "a fabric has shear stiffness"};
 }
 
-void add_shear(EffectBuild& build) { build.solver.emplace<cloth::ShearEffect>(build.mesh); }
+void add_shear(EffectBuild& build) {
+  build.solver.emplace<cloth::ShearEffect>(build.mesh);
+}
 
 } // namespace
 

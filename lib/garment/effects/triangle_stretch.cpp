@@ -9,9 +9,11 @@ namespace {
 std::vector<cloth::Shrink> shrink_of(const Garment& garment) {
   std::vector<cloth::Shrink> shrink(garment.panels.triangles.size());
   for (const SceneShrink& s : garment.scene.shrink) {
-    if (!s.panel.empty()) panel_named(garment, s.panel);
+    if (!s.panel.empty())
+      panel_named(garment, s.panel);
     for (const pattern::PanelInfo& panel : garment.panels.panels) {
-      if (!s.panel.empty() && panel.name != s.panel) continue;
+      if (!s.panel.empty() && panel.name != s.panel)
+        continue;
       for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
         Vec2 middle = Vec2::Zero();
         for (int v : garment.panels.triangles[f])
@@ -25,7 +27,8 @@ std::vector<cloth::Shrink> shrink_of(const Garment& garment) {
 }
 
 EffectChoice choose_triangle_stretch(const EffectFacts& facts) {
-  if (!facts.is_triangles) return {false, "edge springs or finite elements do it"};
+  if (!facts.is_triangles)
+    return {false, "edge springs or finite elements do it"};
   return {true,
           facts.scene.shrink.empty() ? "the scene chose triangles" : "the scene shrinks a region"};
 }

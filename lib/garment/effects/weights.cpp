@@ -6,7 +6,8 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_weights(const EffectFacts& facts) {
-  if (!facts.scene.weights.empty()) return {true, "the scene has weights"};
+  if (!facts.scene.weights.empty())
+    return {true, "the scene has weights"};
   return {false, "the scene has no weights"};
 }
 
@@ -30,8 +31,10 @@ void add_mass(cloth::ClothMesh& mesh, const Garment& garment, const SceneWeight&
 
 /// What is sewn on is mass of the cloth: gravity and inertia act on it as on cloth.
 void prepare_weights(cloth::ClothMesh& mesh, const Garment& garment, bool is_on) {
-  if (!is_on) return;
-  for (const SceneWeight& weight : garment.scene.weights) add_mass(mesh, garment, weight);
+  if (!is_on)
+    return;
+  for (const SceneWeight& weight : garment.scene.weights)
+    add_mass(mesh, garment, weight);
 }
 
 } // namespace

@@ -6,12 +6,14 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_wind(const EffectFacts& facts) {
-  if (facts.scene.air) return {true, "the scene has air"};
+  if (facts.scene.air)
+    return {true, "the scene has air"};
   return {false, "the scene names no wind"};
 }
 
 void add_wind(EffectBuild& build) {
-  if (build.open_seams) return;
+  if (build.open_seams)
+    return;
   cloth::WindOptions options;
   options.velocity = build.garment.scene.wind_m_s;
   build.solver.emplace<cloth::WindEffect>(build.mesh.particle_triangles(), options);

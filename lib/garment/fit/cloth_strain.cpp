@@ -17,7 +17,8 @@ Flat relaxed(const Flat& sides, const std::array<double, 3>& scale) {
   const double a = sides.col(0).norm() * scale[0],
                b = (sides.col(1) - sides.col(0)).norm() * scale[1],
                c = sides.col(1).norm() * scale[2];
-  if (!(a > 0 && c > 0)) return Flat::Identity();
+  if (!(a > 0 && c > 0))
+    return Flat::Identity();
   const double x = (a * a + c * c - b * b) / (2 * a);
   Flat shape;
   shape << a, x, 0, std::sqrt(std::max(1e-18, c * c - x * x));
@@ -53,7 +54,8 @@ std::vector<TriangleStrain> triangle_strains(const Garment& garment,
       const Triangle& t = garment.panels.triangles[f];
       const Flat sides = sides_in_grain(garment, t, panel.grain.normalized());
       const double area = 0.5 * std::abs(sides.determinant());
-      if (area < 1e-12) continue;
+      if (area < 1e-12)
+        continue;
       Deformation moved;
       for (int k = 0; k < 2; ++k)
         moved.col(k) =
@@ -84,14 +86,16 @@ std::vector<double> contact_pressures(const Garment& garment,
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
       const double tension[] = {m.stretch_weft_n_m * std::max(strains[f].weft, 0.0),
                                 m.stretch_warp_n_m * std::max(strains[f].warp, 0.0)};
-      if (!(strains[f].area > 0) || !(tension[0] + tension[1] > 0)) continue;
+      if (!(strains[f].area > 0) || !(tension[0] + tension[1] > 0))
+        continue;
       const Triangle& t = garment.panels.triangles[f];
       const Vec3 &a = garment.position[garment.particle_of[t[0]]],
                  &b = garment.position[garment.particle_of[t[1]]],
                  &c = garment.position[garment.particle_of[t[2]]];
       const double reach = garment.offset_m + TOUCHING_M;
       const collision::SignedDistance d = skin.signed_distance((a + b + c) / 3, 2 * reach, hint);
-      if (d.triangle < 0 || d.distance > reach) continue;
+      if (d.triangle < 0 || d.distance > reach)
+        continue;
       hint = d.triangle;
       const Flat inverse = sides_in_grain(garment, t, panel.grain.normalized()).inverse();
       Deformation moved, turned;
@@ -110,13 +114,16 @@ std::vector<double> contact_pressures(const Garment& garment,
 }
 
 double area_quantile(std::vector<Weighted>& values, double q) {
-  if (values.empty()) return 0;
+  if (values.empty())
+    return 0;
   std::sort(values.begin(), values.end(),
             [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
   double whole = 0, below = 0;
-  for (const Weighted& v : values) whole += v.area;
   for (const Weighted& v : values)
-    if (below += v.area; below >= q * whole) return v.value;
+    whole += v.area;
+  for (const Weighted& v : values)
+    if (below += v.area; below >= q * whole)
+      return v.value;
   return values.back().value;
 }
 
@@ -126,7 +133,8 @@ std::vector<std::optional<double>> strains_around(const Garment& garment,
   std::vector<Weighted> sums(garment.position.size(), {0, 0}); // strain times area, area
   for (const int f : list) {
     const TriangleStrain& s = strains[f];
-    if (!(s.area > 0)) continue;
+    if (!(s.area > 0))
+      continue;
     for (const int v : garment.panels.triangles[f]) {
       Weighted& sum = sums[garment.particle_of[v]];
       sum.value += s.area * s.thread();
@@ -135,7 +143,8 @@ std::vector<std::optional<double>> strains_around(const Garment& garment,
   }
   std::vector<std::optional<double>> places(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i)
-    if (sums[i].area > 0) places[i] = sums[i].value / sums[i].area;
+    if (sums[i].area > 0)
+      places[i] = sums[i].value / sums[i].area;
   return places;
 }
 

@@ -34,7 +34,9 @@ constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff l
 constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
 
 /// How large a length is, whatever its sign.
-std::string centimetres(double m) { return sloper::centimetres(std::abs(m)); }
+std::string centimetres(double m) {
+  return sloper::centimetres(std::abs(m));
+}
 
 /// Why a girth is too small. @param goes_round  it was seen to close, stretched
 std::string too_small(const FitRow& row, bool goes_round) {
@@ -42,7 +44,8 @@ std::string too_small(const FitRow& row, bool goes_round) {
   if (row.ease_m >= 0)
     return "has too little ease" + where + ": " + centimetres(row.ease_m); // a policy asks for some
   const double cloth = row.rest_m - row.bridged_m;
-  if (!(cloth > 0)) return "does not close" + where + " by " + centimetres(row.ease_m);
+  if (!(cloth > 0))
+    return "does not close" + where + " by " + centimetres(row.ease_m);
   if (goes_round)
     return "closes" + where + " only stretched by " +
            whole_percent((row.lying_m - row.rest_m) / cloth) + ": it is " +
@@ -70,9 +73,11 @@ void take_limits(const FitPolicy& policy, const FitReport& report,
   if (row.worn_strain > 0) // as much smaller as it was stretched there
     limits.too_small_ease = policy.too_small_ease(limits, 1 / (1 + row.worn_strain) - 1, row.name,
                                                   report.garment_class, report.fabric);
-  if (!policy.worn_here) return;
+  if (!policy.worn_here)
+    return;
   const auto here = policy.worn_here->find(row.name);
-  if (here != policy.worn_here->end()) designed_with(here->second);
+  if (here != policy.worn_here->end())
+    designed_with(here->second);
 }
 
 /// @param at_rest  strain is a fact only of cloth at rest
@@ -120,28 +125,35 @@ const std::string& main_frame(const Garment& garment, std::size_t particle) {
 double axilla_height(const body::Body& body) {
   double y = 1e300;
   for (const char* name : {"axilla_l", "axilla_r"})
-    if (body.has_landmark(name)) y = std::min(y, body.landmark(name).y());
+    if (body.has_landmark(name))
+      y = std::min(y, body.landmark(name).y());
   return y;
 }
 
 std::string region_of(const Garment& garment, std::size_t particle, double axilla_y) {
   const std::string& frame = main_frame(garment, particle);
   const std::string side = !frame.empty() && frame.back() == 'l' ? "left " : "right ";
-  if (frame.find("arm_") != std::string::npos) return side + "sleeve";
-  if (frame.rfind("leg_", 0) == 0) return side + "leg";
-  if (frame == "lower_body") return "skirt";
-  if (frame == "head") return "collar"; // or a hood
+  if (frame.find("arm_") != std::string::npos)
+    return side + "sleeve";
+  if (frame.rfind("leg_", 0) == 0)
+    return side + "leg";
+  if (frame == "lower_body")
+    return "skirt";
+  if (frame == "head")
+    return "collar"; // or a hood
   return garment.position[particle].y() > axilla_y ? "shoulders" : "trunk";
 }
 
 std::string class_of(const std::vector<std::string>& region) {
   std::map<std::string, double> share;
-  for (const std::string& name : region) share[name] += 1.0 / static_cast<double>(region.size());
+  for (const std::string& name : region)
+    share[name] += 1.0 / static_cast<double>(region.size());
   const double legs = share["left leg"] + share["right leg"];
   // Where a scan's arms lie on its flanks, no arm pits are found, and nothing counts as above them.
   const bool top =
       share["shoulders"] + share["left sleeve"] + share["right sleeve"] + share["collar"] > 0.02;
-  if (legs > 0.2 && legs > share["skirt"]) return top ? "whole" : "trousers";
+  if (legs > 0.2 && legs > share["skirt"])
+    return top ? "whole" : "trousers";
   if (share["skirt"] > (top ? 0.1 : 0.2))
     return top ? "dress" : "skirt"; // of a short dress much more is bodice and sleeves
   return top || share["trunk"] > 0.9 ? "top" : "skirt";
@@ -155,7 +167,8 @@ void measure_regions(const ClothState& cloth, const std::vector<std::string>& re
     const auto at = [&](int k) -> const std::string& {
       return region[cloth.garment.particle_of[t[k]]];
     };
-    if (at(0) == at(1) && at(1) == at(2)) triangles[at(0)].push_back(static_cast<int>(f));
+    if (at(0) == at(1) && at(1) == at(2))
+      triangles[at(0)].push_back(static_cast<int>(f));
   }
   for (const auto& [name, list] : triangles) {
     const StrainFigures figures = strain_of(cloth, list);
@@ -190,10 +203,12 @@ void judge_strain(const FitPolicy& policy, FitReport& report) {
 
 /// A cuff that is too small because it lies on the hand: that the sleeve is too long is the reason.
 void tell_long_sleeve(const FitLines& lines, FitRow& row) {
-  if (row.verdict != FitVerdict::TOO_SMALL || row.name.rfind("sleeve_hem_", 0) != 0) return;
+  if (row.verdict != FitVerdict::TOO_SMALL || row.name.rfind("sleeve_hem_", 0) != 0)
+    return;
   const std::string sleeve = "sleeve_" + row.name.substr(row.name.size() - 1);
   const auto share = lines.coverage.find(sleeve);
-  if (share == lines.coverage.end() || share->second <= 1) return;
+  if (share == lines.coverage.end() || share->second <= 1)
+    return;
   const double beyond = lines.coverage_m.at(sleeve) * (1 - 1 / share->second);
   if (beyond > OVER_THE_HAND)
     row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) +
@@ -211,11 +226,13 @@ bool hangs_from_waist(const FitReport& report) {
 double slip_borne(const FitPolicy& policy, const FitLines& lines, const body::Body& body,
                   const FitReport& report) {
   const double said = policy.slip_m(report.garment_class, report.fabric);
-  if (!hangs_from_waist(report)) return said;
+  if (!hangs_from_waist(report))
+    return said;
   const auto top = std::find_if(lines.hems.begin(), lines.hems.end(),
                                 [](const FitHem& hem) { return hem.name == "top"; });
   const auto hip = body.levels.find("hip");
-  if (top == lines.hems.end() || hip == body.levels.end()) return std::min(said, SLID);
+  if (top == lines.hems.end() || hip == body.levels.end())
+    return std::min(said, SLID);
   return std::min(said, std::max(SLID, report.slip_m + top->height_m - hip->second.y));
 }
 
@@ -224,7 +241,8 @@ double soles_of(const body::Body& body) {
   double y = 1e300;
   for (std::size_t f = 0; f < body.face_part.size(); ++f)
     if (body.face_part[f] == body::Part::LEG_L || body.face_part[f] == body::Part::LEG_R)
-      for (int v : body.skin.triangles[f]) y = std::min(y, body.skin.positions[v].y());
+      for (int v : body.skin.triangles[f])
+        y = std::min(y, body.skin.positions[v].y());
   return y;
 }
 
@@ -235,7 +253,8 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
     const bool worse = !worst || row.verdict > worst->verdict ||
                        (row.verdict == worst->verdict &&
                         row.margin_m / row.body_m < worst->margin_m / worst->body_m);
-    if (worse) worst = &row;
+    if (worse)
+      worst = &row;
     if (&row == report.rows.data() || row.margin_m < report.margin_m) {
       report.margin_m = row.margin_m;
       report.margin_at = row.name;
@@ -250,16 +269,19 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slips ? slides_down : "does not go around any girth of the body";
-    if (slips) report.rule = slip_rule;
+    if (slips)
+      report.rule = slip_rule;
     return;
   }
   report.verdict = worst ? worst->verdict : FitVerdict::OK; // an apron goes round none
-  if (worst) report.rule = worst->rule;
+  if (worst)
+    report.rule = worst->rule;
   report.reason =
       worst ? worst->reason
             : "does not go around any girth of the body: only strain and slip were judged";
   const bool certain = report.convergence_m == 0 || !unfit.empty();
-  if (certain) judge_strain(policy, report);
+  if (certain)
+    judge_strain(policy, report);
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slides_down;
@@ -296,7 +318,8 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
 void add_redrape_spread(const Redrapes& redrapes, FitReport& report) {
   for (FitRow& row : report.rows) {
     const auto found = redrapes.girths.find(row.name);
-    if (found == redrapes.girths.end()) continue;
+    if (found == redrapes.girths.end())
+      continue;
     const Redrapes::Row& sd = found->second;
     row.garment_uncertainty_m = std::hypot(row.garment_uncertainty_m, sd.ease_m);
     row.ease_uncertainty_m = std::hypot(row.ease_uncertainty_m, sd.ease_m);
@@ -353,7 +376,8 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
   std::string why;
   const auto add = [&](std::optional<FitRow> row, const std::string& name) {
     if (!row) {
-      if (!why.empty()) report.left_out.emplace_back(name, why);
+      if (!why.empty())
+        report.left_out.emplace_back(name, why);
       return;
     }
     take_limits(policy, report, made_for, *row);
@@ -372,7 +396,8 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
     if (!measured.count(name))
       report.left_out.emplace_back(name, "the body document does not say where it was measured");
   add_redrape_spread(garment.redrapes, report);
-  if (placed) report.slip_borne_m = slip_borne(policy, report.lines, body, report);
+  if (placed)
+    report.slip_borne_m = slip_borne(policy, report.lines, body, report);
   conclude(policy, unfit, report);
   report.strain_unknown = garment.strain_unknown;
   take_probability(policy, made_for, garment.converged || !unfit.empty(), report);
@@ -426,7 +451,8 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
           std::min(report.margin_m, line.rest - (1 + limits.tight_ease) * place.body_m);
   };
   for (const FitPlace& place : fit_places(body)) {
-    if (place.kind == "neck") continue; // a collar slides to where it is wide enough
+    if (place.kind == "neck")
+      continue; // a collar slides to where it is wide enough
     const std::vector<char> use = cloth_of(garment, place);
     const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
     const double least = place.body_m - place.body_spread_m;
@@ -437,7 +463,8 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     const auto look = [&](double shift) {
       std::string why;
       line = line_around(garment, use, place, shift, why, &source_position);
-      if (!line) return false;
+      if (!line)
+        return false;
       const double elsewhere = line->elsewhere - line->bridged, rest = line->rest - line->bridged;
       if (std::abs(shift) <= REACH_BEYOND)
         beyond_stretch = std::min(
@@ -447,20 +474,27 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
                                               std::max(line->rest, line->elsewhere));
       return true;
     };
-    if (!look(-REACH_BEYOND) || !look(REACH_BEYOND) || !look(0)) continue;
-    if (beyond_rest > 0 && !(look(-SLIDE_BEYOND) && look(SLIDE_BEYOND))) beyond_rest = 0;
-    if (!look(0)) continue;
+    if (!look(-REACH_BEYOND) || !look(REACH_BEYOND) || !look(0))
+      continue;
+    if (beyond_rest > 0 && !(look(-SLIDE_BEYOND) && look(SLIDE_BEYOND)))
+      beyond_rest = 0;
+    if (!look(0))
+      continue;
     const double missing = std::max(beyond_stretch, beyond_rest);
-    if (missing > 0) refuse(place, *line, limits, missing);
-    else accept(place, *line, limits);
+    if (missing > 0)
+      refuse(place, *line, limits, missing);
+    else
+      accept(place, *line, limits);
   }
   const FitLines lines = fit_lines(garment, body);
   report.slip_borne_m = slip_borne(policy, lines, body, report);
   for (const FitHem& hem : lines.hems) {
-    if (hem.name != "top") continue; // others slide along a limb, over a hand or a foot
+    if (hem.name != "top")
+      continue; // others slide along a limb, over a hand or a foot
     std::string why;
     const auto edge = edge_line(garment, body, hem, why);
-    if (!edge) continue;
+    if (!edge)
+      continue;
     const FitPlace& place = edge->place;
     const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
     double least = place.body_m, elsewhere = 0;
@@ -473,8 +507,10 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
                        .norm();
     const double missing = (1 + limits.too_small_ease) * (least - place.body_spread_m) -
                            std::max(edge->line.rest, elsewhere);
-    if (missing > 0) refuse(place, edge->line, limits, missing);
-    else accept(place, edge->line, limits);
+    if (missing > 0)
+      refuse(place, edge->line, limits, missing);
+    else
+      accept(place, edge->line, limits);
   }
   take_probability(policy, {}, false, report);
   return report;

@@ -10,7 +10,8 @@ namespace {
 
 io::Json rule_json(const FitRule& rule) {
   io::Json j = {{"key", rule.key}};
-  if (!rule.key.empty() && std::isfinite(rule.limit)) j["limit"] = rule.limit;
+  if (!rule.key.empty() && std::isfinite(rule.limit))
+    j["limit"] = rule.limit;
   return j;
 }
 
@@ -96,7 +97,8 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
   for (const auto& [name, share] : report.lines.coverage)
     document["coverage"][name] = {{"share", share}, {"length_m", report.lines.coverage_m.at(name)}};
   document["left_out"] = io::Json::object();
-  for (const auto& [name, why] : report.left_out) document["left_out"][name] = why;
+  for (const auto& [name, why] : report.left_out)
+    document["left_out"][name] = why;
   return document;
 }
 

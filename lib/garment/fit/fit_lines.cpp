@@ -17,11 +17,14 @@ std::vector<std::vector<std::array<int, 2>>> free_loops(const std::vector<Triang
                                                         std::size_t n_particles) {
   const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
   DisjointSets joined(n_particles);
-  for (const auto& [a, b] : free) joined.unite(a, b);
+  for (const auto& [a, b] : free)
+    joined.unite(a, b);
   std::map<int, std::vector<std::array<int, 2>>> loops;
-  for (const auto& e : free) loops[joined.find(e[0])].push_back(e);
+  for (const auto& e : free)
+    loops[joined.find(e[0])].push_back(e);
   std::vector<std::vector<std::array<int, 2>>> result;
-  for (auto& [first, edges] : loops) result.push_back(std::move(edges));
+  for (auto& [first, edges] : loops)
+    result.push_back(std::move(edges));
   return result;
 }
 
@@ -33,7 +36,8 @@ std::string owner(const Garment& garment, const std::vector<std::array<int, 2>>&
       std::string name = garment.bind.frames[w.frame];
       if (name.find("arm_") != std::string::npos)
         name = name.back() == 'l' ? "left sleeve" : "right sleeve";
-      else if (name.rfind("leg_", 0) == 0) name = name.back() == 'l' ? "left leg" : "right leg";
+      else if (name.rfind("leg_", 0) == 0)
+        name = name.back() == 'l' ? "left leg" : "right leg";
       share[name] += w.weight;
     }
   return std::max_element(share.begin(), share.end(),
@@ -75,7 +79,8 @@ void cover(const body::Body& body, const std::vector<std::string>& names, const 
            const std::string& key, FitLines& lines) {
   double best = 1e300, covered = 0, whole = 0;
   for (const std::string& name : names)
-    if (!body.has_landmark(name)) return;
+    if (!body.has_landmark(name))
+      return;
   for (std::size_t i = 0; i + 1 < names.size(); ++i) {
     const Vec3 a = body.landmark(names[i]), b = body.landmark(names[i + 1]), d = b - a;
     const double free = (at - a).dot(d) / d.squaredNorm();
@@ -88,7 +93,8 @@ void cover(const body::Body& body, const std::vector<std::string>& names, const 
     }
     whole += d.norm();
   }
-  if (whole <= 0) return;
+  if (whole <= 0)
+    return;
   lines.coverage_m[key] = covered;
   lines.coverage[key] = covered / whole;
 }
@@ -105,18 +111,22 @@ FitLines fit_lines(const Garment& garment, const body::Body& body) {
   std::map<std::string, int> seen;
   for (const auto& loop : free_loops(garment.particle_triangles(), garment.position.size())) {
     Vec3 center = Vec3::Zero();
-    for (const auto& e : loop) center += garment.position[e[0]] / static_cast<double>(loop.size());
+    for (const auto& e : loop)
+      center += garment.position[e[0]] / static_cast<double>(loop.size());
     FitHem hem = measure_hem(garment, loop, center);
     hem.edges = loop;
-    if (hem.length_m < SHORTEST_HEM) continue;
+    if (hem.length_m < SHORTEST_HEM)
+      continue;
     hem.name = owner(garment, loop);
-    if (hem.name == "head") hem.name = "neck";
+    if (hem.name == "head")
+      hem.name = "neck";
     if (hem.name == "torso" || hem.name == "lower_body") {
       const bool up = hem.height_m > 0.5 * (low + high);
       const bool neck =
           body.has_landmark("axilla_l") && hem.height_m > body.landmark("axilla_l").y();
       hem.name = neck ? "neck" : "top";
-      if (!up) hem.name = "hem";
+      if (!up)
+        hem.name = "hem";
     }
     const std::string side = hem.name.rfind("left", 0) == 0 ? "_l" : "_r";
     if (hem.name.find("sleeve") != std::string::npos)
@@ -128,7 +138,8 @@ FitLines fit_lines(const Garment& garment, const body::Body& body) {
       lines.coverage_m["inseam" + side] = crotch - hem.height_m;
       lines.coverage["inseam" + side] = (crotch - hem.height_m) / (crotch - ankle);
     }
-    if (const int n = ++seen[hem.name]; n > 1) hem.name += " " + std::to_string(n);
+    if (const int n = ++seen[hem.name]; n > 1)
+      hem.name += " " + std::to_string(n);
     lines.hems.push_back(std::move(hem));
   }
   return lines;

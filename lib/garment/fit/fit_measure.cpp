@@ -74,7 +74,8 @@ void finish_row(const ClothState& cloth, const FitPlace& place, const SectionLin
     for (const SectionSegment& s : chain.segments) {
       pressures.push_back(cloth.pressures[s.triangle]);
       const collision::SignedDistance d = cloth.skin.signed_distance(s.a, 1.0, hint);
-      if (d.triangle < 0) continue;
+      if (d.triangle < 0)
+        continue;
       hint = d.triangle;
       gaps.push_back(d.distance);
     }
@@ -95,12 +96,14 @@ std::vector<int> in_order(const std::vector<std::array<int, 2>>& edges) {
     next[e[1]].push_back(e[0]);
   }
   for (const auto& [particle, others] : next)
-    if (others.size() != 2) return {};
+    if (others.size() != 2)
+      return {};
   std::vector<int> loop{next.begin()->first};
   for (int last = -1; loop.size() <= edges.size();) {
     const std::vector<int>& others = next[loop.back()];
     const int to = others[0] == last ? others[1] : others[0];
-    if (to == loop.front()) break;
+    if (to == loop.front())
+      break;
     last = loop.back();
     loop.push_back(to);
   }
@@ -123,7 +126,8 @@ SectionLine line_of(const Garment& garment, const std::vector<int>& loop) {
       const int u = garment.panels.triangles[f][k], v = garment.panels.triangles[f][(k + 1) % 3];
       const auto found = sides.find({std::min(garment.particle_of[u], garment.particle_of[v]),
                                      std::max(garment.particle_of[u], garment.particle_of[v])});
-      if (found == sides.end()) continue;
+      if (found == sides.end())
+        continue;
       const double scale = garment.rest_scale.empty() ? 1 : garment.rest_scale[f][k];
       found->second = {static_cast<int>(f),
                        scale * (garment.panels.pattern[v] - garment.panels.pattern[u]).norm()};
@@ -159,7 +163,8 @@ const EdgeKind* kind_of(const std::string& hem) {
       {"right leg", "leg_hem_r", {Part::LEG_R}},
       {"top", "top_edge", {Part::TORSO, Part::LEG_L, Part::LEG_R}}};
   for (const EdgeKind& kind : KINDS)
-    if (hem == kind.hem) return &kind;
+    if (hem == kind.hem)
+      return &kind;
   return nullptr;
 }
 
@@ -188,7 +193,8 @@ std::vector<int> ring_of(const Garment& garment, std::vector<char>& in) {
       ring.push_back(static_cast<int>(f));
   }
   for (const int f : ring)
-    for (const int v : garment.panels.triangles[f]) in[garment.particle_of[v]] = 1;
+    for (const int v : garment.panels.triangles[f])
+      in[garment.particle_of[v]] = 1;
   return ring;
 }
 
@@ -201,12 +207,14 @@ StrainFigures strain_of(const ClothState& cloth, const std::vector<int>& triangl
     if (const TriangleStrain& s = cloth.strains[f]; s.area > 0)
       values.push_back({s.thread(), s.area});
   figures.n = values.size();
-  if (values.empty()) return figures;
+  if (values.empty())
+    return figures;
   figures.p50 = area_quantile(values, 0.5);
   figures.p99 = area_quantile(values, 0.99);
   figures.max = values.front().value;
   for (const auto& place : strains_around(cloth.garment, cloth.strains, triangles))
-    if (place) figures.max = std::max(figures.max, *place);
+    if (place)
+      figures.max = std::max(figures.max, *place);
   double warp = 0, weft = 0;
   for (const int f : triangles)
     if (const TriangleStrain& s = cloth.strains[f]; s.area > 0 && s.thread() >= figures.p99)
@@ -223,15 +231,18 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
   why = chains.empty() ? "the garment does not reach it" : "the garment does not go round it";
   const SectionChain* best = nullptr;
   for (const SectionChain& chain : chains) {
-    if (chain.turns(center, place.normal) < AROUND) continue;
+    if (chain.turns(center, place.normal) < AROUND)
+      continue;
     const bool both = std::any_of(place.outside.begin(), place.outside.end(), [&](const Vec3& o) {
       return chain.turns(o, place.normal) > AROUND;
     });
     if (both) {
-      if (!best) why = "the garment goes round both legs there";
+      if (!best)
+        why = "the garment goes round both legs there";
       continue;
     }
-    if (!best || chain.rest_length < best->rest_length) best = &chain;
+    if (!best || chain.rest_length < best->rest_length)
+      best = &chain;
   }
   if (best) {
     SectionLine line;
@@ -242,7 +253,8 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
     line.chains.push_back(*best);
     return line;
   }
-  if (place.kind != "level") return std::nullopt;
+  if (place.kind != "level")
+    return std::nullopt;
   return assemble_line(std::move(chains), center, place.normal, LARGEST_OPEN);
 }
 
@@ -252,9 +264,11 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
   const Garment& garment = cloth.garment;
   const std::vector<char> use = cloth_of(garment, place);
   const auto line = line_around(garment, use, place, 0, why, source);
-  if (!line) return std::nullopt;
+  if (!line)
+    return std::nullopt;
   FitRow row = row_of(place, *line);
-  if (source && line->rest > 0) row.worn_strain = line->elsewhere / line->rest - 1;
+  if (source && line->rest > 0)
+    row.worn_strain = line->elsewhere / line->rest - 1;
   const auto within = [&](double band) {
     std::vector<int> near;
     for (std::size_t f = 0; f < use.size(); ++f) {
@@ -277,8 +291,10 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
   for (const double shift : {-place.height_error_m, place.height_error_m}) {
     std::string ignored;
     const auto moved = line_around(garment, use, place, shift, ignored);
-    if (moved) change = std::max(change, std::abs(moved->rest - row.rest_m));
-    if (moved) widens = std::min(widens, std::abs(moved->bridged - line->bridged));
+    if (moved)
+      change = std::max(change, std::abs(moved->rest - row.rest_m));
+    if (moved)
+      widens = std::min(widens, std::abs(moved->bridged - line->bridged));
   }
   if (cut_open && widens > 2 * place.height_error_m * static_cast<double>(line->chains.size()))
     return why = "a hem crosses it", std::nullopt;
@@ -292,28 +308,33 @@ std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body
                                   std::string& why) {
   why.clear();
   const EdgeKind* kind = kind_of(hem.name);
-  if (!kind) return std::nullopt;
+  if (!kind)
+    return std::nullopt;
   EdgeLine edge{{kind->row, "edge", Vec3::Zero(), Vec3::Zero(), 0, 0, EDGE_HEIGHT, {}, {}},
                 {},
                 kind->parts,
                 in_order(hem.edges)};
   FitPlace& place = edge.place;
   const std::vector<int>& loop = edge.particles;
-  if (loop.empty()) return std::nullopt;
-  for (const int p : loop) place.center += garment.position[p] / static_cast<double>(loop.size());
+  if (loop.empty())
+    return std::nullopt;
+  for (const int p : loop)
+    place.center += garment.position[p] / static_cast<double>(loop.size());
   for (std::size_t i = 0; i < loop.size(); ++i)
     place.normal += (garment.position[loop[i]] - place.center)
                         .cross(garment.position[loop[(i + 1) % loop.size()]] - place.center);
   edge.line = line_of(garment, loop);
   const double round = 2 * units::PI * place.normal.norm() /
                        (edge.line.lying * edge.line.lying); // 4 pi area / length^2: 1 for a circle
-  if (!(round > LEAST_ROUND)) return why = "its edge does not go around the body", std::nullopt;
+  if (!(round > LEAST_ROUND))
+    return why = "its edge does not go around the body", std::nullopt;
   place.normal = (place.normal.y() < 0 ? Vec3(-place.normal) : place.normal).normalized();
   const bool of_limb = kind->parts.size() == 1;
   if (!of_limb && place.normal.y() < STEEPEST)
     return why = "its edge does not go round the trunk", std::nullopt;
   place.body_m = skin_girth(body, kind->parts, place.center, place.normal);
-  if (!(place.body_m > 0)) return why = "the skin has no section in its plane", std::nullopt;
+  if (!(place.body_m > 0))
+    return why = "the skin has no section in its plane", std::nullopt;
   const auto base = body.girths.find("neck_base");
   if (hem.name == "neck" && base != body.girths.end() &&
       place.body_m > WIDER_THAN_NECK * base->second.value_m)
@@ -332,7 +353,8 @@ std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& bo
                                    const std::vector<Vec3>* source) {
   const Garment& garment = cloth.garment;
   const auto edge = edge_line(garment, body, hem, why);
-  if (!edge) return std::nullopt;
+  if (!edge)
+    return std::nullopt;
   FitRow row = row_of(edge->place, edge->line);
   if (source && edge->line.rest > 0) {
     double worn = 0;
@@ -343,7 +365,8 @@ std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& bo
     row.worn_strain = worn / edge->line.rest - 1;
   }
   std::vector<char> in(garment.position.size(), 0);
-  for (const int p : edge->particles) in[p] = 1;
+  for (const int p : edge->particles)
+    in[p] = 1;
   const StrainFigures first = strain_of(cloth, ring_of(garment, in));
   take_strain(first, strain_of(cloth, ring_of(garment, in)), row);
   finish_row(cloth, edge->place, edge->line, 0, convergence, row);

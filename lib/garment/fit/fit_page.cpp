@@ -41,11 +41,16 @@ table.tBodies[0].append(...rows)});
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '&') out += "&amp;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -93,7 +98,8 @@ struct Scale {
   } ///< per cent of the track
   double step() const {
     for (const double s : {0.05, 0.1, 0.2})
-      if ((high - low) / s <= 7) return s;
+      if ((high - low) / s <= 7)
+        return s;
     return 0.25;
   }
 };
@@ -111,8 +117,10 @@ std::string ease_bars(const std::vector<FitRow>& rows) {
     const double share = r.ease_m / r.body_m, error = r.ease_uncertainty_m / r.body_m;
     scale.show(share - error);
     scale.show(share + error + 0.02);
-    if (r.limits.loose_ease <= 0.65) scale.show(r.limits.loose_ease);
-    if (r.limits.too_large_ease <= 0.65) scale.show(r.limits.too_large_ease + 0.01);
+    if (r.limits.loose_ease <= 0.65)
+      scale.show(r.limits.loose_ease);
+    if (r.limits.too_large_ease <= 0.65)
+      scale.show(r.limits.too_large_ease + 0.01);
     scale.show(r.limits.too_small_ease - 0.01);
   }
   std::string axis, lines;
@@ -134,7 +142,8 @@ std::string ease_bars(const std::vector<FitRow>& rows) {
         mark("bar", scale.at(std::min(0.0, share)), std::abs(scale.at(share) - scale.at(0))) +
         mark("error", scale.at(share - error), scale.at(share + error) - scale.at(share - error));
     for (const double limit : {r.limits.too_small_ease, r.limits.too_large_ease})
-      if (scale.shows(limit)) bars += mark("limit", scale.at(limit));
+      if (scale.shows(limit))
+        bars += mark("limit", scale.at(limit));
     bars += "</span><b class=\"n\">" + number(100 * share, 1) + " &plusmn; " +
             number(100 * error, 1) + "</b>\n";
   }
@@ -155,7 +164,8 @@ std::string likelihood_of(const FitReport& report) {
 }
 
 std::string said_of(const std::string& state) {
-  if (state == "placed") return "; measured as it was placed: it was not draped";
+  if (state == "placed")
+    return "; measured as it was placed: it was not draped";
   return state == "not at rest" ? "; the drape did not come to rest" : "";
 }
 

@@ -13,17 +13,23 @@ constexpr double HEIGHT_ERROR = 0.005; // m, least uncertainty of a level's heig
 constexpr double NECK_REACH = 0.10;    // m above its base in which the neck's girth is
 constexpr double STRIDE = 0.005;       // m between sections in search of a girth
 
-bool is_arm(const std::string& frame) { return frame.find("arm") != std::string::npos; }
+bool is_arm(const std::string& frame) {
+  return frame.find("arm") != std::string::npos;
+}
 
 /// Spread of the landmarks that a level's height comes from.
 double level_spread(const body::Body& body, const std::string& level) {
   const auto spread = [&](const std::string& landmark) {
     return body.has_landmark(landmark) ? body.landmarks.at(landmark).spread_m : 0.0;
   };
-  if (level == "bust") return std::max(spread("bust_point_l"), spread("bust_point_r"));
-  if (level == "chest_axilla") return std::max(spread("axilla_l"), spread("axilla_r"));
-  if (level == "hip") return spread("buttock_back");
-  if (level == "abdomen") return spread("abdomen_front");
+  if (level == "bust")
+    return std::max(spread("bust_point_l"), spread("bust_point_r"));
+  if (level == "chest_axilla")
+    return std::max(spread("axilla_l"), spread("axilla_r"));
+  if (level == "hip")
+    return spread("buttock_back");
+  if (level == "abdomen")
+    return spread("abdomen_front");
   return spread(level);
 }
 
@@ -55,8 +61,10 @@ double girth_in(const body::Body& body, const body::Plane& plane, const std::vec
   const std::vector<body::Loop> loops = body::cut(body.skin, plane, &faces);
   const body::Loop* best = nullptr;
   for (const body::Loop& loop : loops)
-    if (loop.area > 0 && (!best || loop.centroid.norm() < best->centroid.norm())) best = &loop;
-  if (!best) return 0;
+    if (loop.area > 0 && (!best || loop.centroid.norm() < best->centroid.norm()))
+      best = &loop;
+  if (!best)
+    return 0;
   body::Loop whole = *best;
   for (const body::Loop& loop : loops)
     if (&loop != best && !best->closed && !loop.closed)
@@ -100,7 +108,8 @@ void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
   const auto torso = body.frames.find("torso");
   TrunkGirth girth(body);
   for (const auto& [name, level] : body.levels) {
-    if (!(level.girth_m > 0)) continue;
+    if (!(level.girth_m > 0))
+      continue;
     const double height_error = std::max(HEIGHT_ERROR, level_spread(body, name));
     FitPlace place{
         name, "level", Vec3(0, level.y, 0), Vec3::UnitY(), level.girth_m, 0, height_error, {}, {}};
@@ -138,13 +147,16 @@ std::optional<Vec3> like_girth(const body::Body& body, const std::vector<body::P
 
 void add_neck(const body::Body& body, std::vector<FitPlace>& places) {
   const auto girth = body.girths.find("neck_base");
-  if (girth == body.girths.end() || !(girth->second.value_m > 0)) return;
+  if (girth == body.girths.end() || !(girth->second.value_m > 0))
+    return;
   for (const char* name : {"neck_front", "neck_back", "neck_side_l", "neck_side_r"})
-    if (!body.has_landmark(name)) return;
+    if (!body.has_landmark(name))
+      return;
   const Vec3 front = body.landmark("neck_front"), back = body.landmark("neck_back"),
              left = body.landmark("neck_side_l"), right = body.landmark("neck_side_r");
   const Vec3 normal = (front - back).cross(left - right).normalized(); // z cross x: up
-  if (!(normal.y() > 0.3)) return; // landmarks that lie in no plane of a neck
+  if (!(normal.y() > 0.3))
+    return; // landmarks that lie in no plane of a neck
   const Vec3 center = 0.25 * (front + back + left + right);
   places.push_back({"neck_base",
                     "neck",
@@ -156,7 +168,8 @@ void add_neck(const body::Body& body, std::vector<FitPlace>& places) {
                     {},
                     {}});
   const auto neck = body.girths.find("neck");
-  if (neck == body.girths.end() || !(neck->second.value_m > 0)) return;
+  if (neck == body.girths.end() || !(neck->second.value_m > 0))
+    return;
   // A neck leans forward, between the plane of its base and the head above it.
   const Vec3 up = body.has_landmark("head_tip")
                       ? Vec3((body.landmark("head_tip") - center).normalized())
@@ -191,7 +204,8 @@ std::vector<FitPlace> fit_places(const body::Body& body) {
     const auto add = [&](const std::string& name, const Vec3& center, const Vec3& normal,
                          std::vector<std::string> frames, std::vector<Vec3> outside) {
       const auto found = body.girths.find(name + "_" + side);
-      if (found == body.girths.end() || !(found->second.value_m > 0)) return;
+      if (found == body.girths.end() || !(found->second.value_m > 0))
+        return;
       places.push_back({name + "_" + side, "limb", center, normal, found->second.value_m,
                         found->second.spread_m, HEIGHT_ERROR, std::move(frames),
                         std::move(outside)});
@@ -207,7 +221,8 @@ std::vector<FitPlace> fit_places(const body::Body& body) {
     // Legs are cut level, as the body's are; their cloth hangs on a leg or on the torso above it.
     const auto leg_point = [&](const std::string& s, double y) -> std::optional<Vec3> {
       const auto frame = body.frames.find("leg_" + s);
-      if (frame == body.frames.end()) return std::nullopt;
+      if (frame == body.frames.end())
+        return std::nullopt;
       const PartFrame& f = frame->second.frame;
       return Vec3(f.lower +
                   (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
@@ -218,13 +233,17 @@ std::vector<FitPlace> fit_places(const body::Body& body) {
         add(name, *here, Vec3::UnitY(), {},
             there ? std::vector<Vec3>{*there} : std::vector<Vec3>{});
     };
-    if (body.has_landmark("crotch")) add_leg("thigh", body.landmark("crotch").y() - 0.01);
-    if (has("knee")) add_leg("knee", at("knee").y());
-    if (!has("knee") || !has("ankle")) continue;
+    if (body.has_landmark("crotch"))
+      add_leg("thigh", body.landmark("crotch").y() - 0.01);
+    if (has("knee"))
+      add_leg("knee", at("knee").y());
+    if (!has("knee") || !has("ankle"))
+      continue;
     const body::Part leg = side == "l" ? body::Part::LEG_L : body::Part::LEG_R;
     for (const char* name : {"calf", "ankle_min"}) {
       const auto girth = body.girths.find(name + std::string("_") + side);
-      if (girth == body.girths.end()) continue;
+      if (girth == body.girths.end())
+        continue;
       const Vec3 knee = at("knee"), ankle = at("ankle");
       if (const auto there = like_girth(body, {leg}, ankle, Vec3::UnitY(), knee.y() - ankle.y(),
                                         girth->second.value_m))
@@ -243,12 +262,14 @@ std::vector<char> cloth_of(const Garment& garment, const FitPlace& place) {
           place.frames.empty()
               ? !is_arm(frame)
               : std::find(place.frames.begin(), place.frames.end(), frame) != place.frames.end();
-      if (belongs) share[i] += w.weight;
+      if (belongs)
+        share[i] += w.weight;
     }
   std::vector<char> use(garment.panels.triangles.size(), 0);
   for (std::size_t f = 0; f < use.size(); ++f) {
     double sum = 0;
-    for (const int v : garment.panels.triangles[f]) sum += share[garment.particle_of[v]];
+    for (const int v : garment.panels.triangles[f])
+      sum += share[garment.particle_of[v]];
     use[f] = sum > 1.5;
   }
   return use;

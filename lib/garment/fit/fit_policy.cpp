@@ -18,7 +18,8 @@ FitOverride read_override(const io::Node& node) {
       {"too_small_ease", "too_small_strain", "tight_ease", "loose_ease", "too_large_ease"});
   FitOverride o;
   const auto read = [&](const char* key, std::optional<double>& value) {
-    if (node.has(key)) value = node.at(key).number();
+    if (node.has(key))
+      value = node.at(key).number();
   };
   read("too_small_ease", o.too_small_ease);
   read("too_small_strain", o.too_small_strain);
@@ -39,14 +40,17 @@ FitOverride read_override(const io::Node& node) {
 
 FitRules read_rules(const io::Node& node) {
   FitRules rules;
-  if (node.has("default")) rules.standard = read_override(node.at("default"));
+  if (node.has("default"))
+    rules.standard = read_override(node.at("default"));
   if (node.has("girths"))
     for (const std::string& name : node.at("girths").keys())
       rules.girths[name] = read_override(node.at("girths").at(name));
   const auto positive = [&](const char* key, std::optional<double>& value) {
-    if (!node.has(key)) return;
+    if (!node.has(key))
+      return;
     value = node.at(key).number();
-    if (*value <= 0) node.at(key).fail("policy.bad-limits"_id, "must be above zero");
+    if (*value <= 0)
+      node.at(key).fail("policy.bad-limits"_id, "must be above zero");
   };
   positive("strain_p99", rules.strain_p99);
   positive("strain_max", rules.strain_max);
@@ -65,7 +69,8 @@ double last_said(const FitPolicy& policy, std::optional<double> FitRules::*value
   for (const FitRuleSet* set : {&policy.standard, &policy.own})
     for (const FitRules* rules :
          {&set->all, rules_of(set->classes, garment_class), rules_of(set->fabrics, fabric)})
-      if (rules && rules->*value) fallback = *(rules->*value);
+      if (rules && rules->*value)
+        fallback = *(rules->*value);
   return fallback;
 }
 
@@ -73,7 +78,8 @@ double last_said(const FitPolicy& policy, std::optional<double> FitRules::*value
 FitOverride roomy(double loose, double too_large) {
   FitOverride o;
   o.loose_ease = loose;
-  if (too_large > 0) o.too_large_ease = too_large;
+  if (too_large > 0)
+    o.too_large_ease = too_large;
   return o;
 }
 
@@ -89,7 +95,8 @@ constexpr const char* HIPS[] = {"hip", "hip_girth_max", "crotch"};
 
 template<class Names>
 void say(FitRules& rules, const Names& names, double loose, double too_large) {
-  for (const char* name : names) rules.girths[name] = roomy(loose, too_large);
+  for (const char* name : names)
+    rules.girths[name] = roomy(loose, too_large);
 }
 
 /// Ease charts of pattern makers call a bust of 10 cm "fitted", of 13 to 20 cm "loose" and beyond
@@ -143,8 +150,10 @@ void FitOverride::apply(FitLimits& limits) const {
   const std::array<const std::optional<double>*, 4> said = {&too_small_ease, &tight_ease,
                                                             &loose_ease, &too_large_ease};
   for (std::size_t k = 0; k < ladder.size(); ++k) {
-    if (!*said[k]) continue;
-    for (std::size_t j = 0; j < k; ++j) *ladder[j] = std::min(*ladder[j], **said[k]);
+    if (!*said[k])
+      continue;
+    for (std::size_t j = 0; j < k; ++j)
+      *ladder[j] = std::min(*ladder[j], **said[k]);
     *ladder[k] = **said[k];
     for (std::size_t j = k + 1; j < ladder.size(); ++j)
       *ladder[j] = std::max(*ladder[j], **said[k]);
@@ -161,9 +170,11 @@ FitLimits FitPolicy::limits(const std::string& girth, const std::string& garment
     const std::array<const FitRules*, 3> layers = {&set->all, rules_of(set->classes, garment_class),
                                                    rules_of(set->fabrics, fabric)};
     for (const FitRules* rules : layers)
-      if (rules) rules->standard.apply(limits);
+      if (rules)
+        rules->standard.apply(limits);
     for (const FitRules* rules : layers) {
-      if (!rules) continue;
+      if (!rules)
+        continue;
       for (const std::string& key : {both_sides, girth})
         if (const auto found = rules->girths.find(key); found != rules->girths.end())
           found->second.apply(limits);
@@ -190,7 +201,8 @@ double FitPolicy::too_small_strain(const FitLimits& limits, double worn, const s
 double FitPolicy::too_small_ease(const FitLimits& limits, double designed, const std::string& girth,
                                  const std::string& garment_class,
                                  const std::string& fabric) const {
-  if (worn_p99 == 0) return limits.too_small_ease;
+  if (worn_p99 == 0)
+    return limits.too_small_ease;
   const bool said = limits.too_small_ease !=
                     without_document(*this).limits(girth, garment_class, fabric).too_small_ease;
   return said ? limits.too_small_ease : std::min(limits.too_small_ease, designed - BELOW_DESIGN);
@@ -228,10 +240,13 @@ FitRules elastic_fabric_rules(double stiffness_n_m) {
   FitRules rules;
   const double strain = WEARING_LOAD / stiffness_n_m;
   const FitLimits woven;
-  if (strain <= STRAIN_P99) return rules; // it gives no more than woven cloth
-  if (strain > woven.too_small_strain) rules.standard.too_small_strain = strain;
+  if (strain <= STRAIN_P99)
+    return rules; // it gives no more than woven cloth
+  if (strain > woven.too_small_strain)
+    rules.standard.too_small_strain = strain;
   rules.strain_p99 = strain;
-  if (ONE_PLACE * strain > STRAIN_MAX) rules.strain_max = ONE_PLACE * strain;
+  if (ONE_PLACE * strain > STRAIN_MAX)
+    rules.strain_max = ONE_PLACE * strain;
   const double ease = -strain / (1 + strain); // of the body's girth
   if (ease < woven.too_small_ease) {
     rules.standard.too_small_ease = ease;
@@ -249,7 +264,8 @@ FitPolicy read_fit_policy(const std::string& path) {
   policy.name = root.string("name", "unnamed");
   policy.own.all = read_rules(root);
   const auto layer = [&](const char* key, std::map<std::string, FitRules>& rules) {
-    if (!root.has(key)) return;
+    if (!root.has(key))
+      return;
     for (const std::string& name : root.at(key).keys()) {
       const io::Node node = root.at(key).at(name);
       node.allow_only({"default", "girths", "strain_p99", "strain_max", "slip_m"});
@@ -267,8 +283,10 @@ FitPolicy read_fit_policy(const std::string& path) {
     const io::Node refuse = root.at("refuse");
     for (std::size_t i = 0; i < refuse.size(); ++i) {
       const std::string word = refuse.at(i).string();
-      if (word == "loose") policy.refuse_loose = true;
-      else if (word == "tight") policy.refuse_tight = true;
+      if (word == "loose")
+        policy.refuse_loose = true;
+      else if (word == "tight")
+        policy.refuse_tight = true;
       else if (word != "too small" && word != "too large")
         refuse.at(i).fail("json.unknown-word"_id, "\"" + word + "\" is not a verdict",
                           "use \"too small\", \"too large\", \"tight\" or \"loose\"");

@@ -43,17 +43,20 @@ void add_cut(const Garment& garment, int f, const std::vector<double>& height,
   int found = 0;
   for (int k = 0; k < 3 && found < 2; ++k) {
     const int i = k, j = (k + 1) % 3, p = garment.particle_of[t[i]], q = garment.particle_of[t[j]];
-    if ((height[p] > 0) == (height[q] > 0)) continue;
+    if ((height[p] > 0) == (height[q] > 0))
+      continue;
     const double s = height[p] / (height[p] - height[q]);
     where[found] = Vec3::Zero();
     where[found][i] = 1 - s;
     where[found][j] = s;
     edge[found++] = {std::min(p, q), std::max(p, q)};
   }
-  if (found < 2) return;
+  if (found < 2)
+    return;
   const auto point = [&](const std::vector<Vec3>& x, const Vec3& w) {
     Vec3 p = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) p += w[k] * x[garment.particle_of[t[k]]];
+    for (int k = 0; k < 3; ++k)
+      p += w[k] * x[garment.particle_of[t[k]]];
     return p;
   };
   const double other =
@@ -84,12 +87,14 @@ double SectionChain::turns(const Vec3& axis_point, const Vec3& normal) const {
 
 void SectionChain::reverse() {
   std::reverse(segments.begin(), segments.end());
-  for (SectionSegment& s : segments) std::swap(s.a, s.b);
+  for (SectionSegment& s : segments)
+    std::swap(s.a, s.b);
 }
 
 std::size_t SectionLine::n_segments() const {
   std::size_t n = 0;
-  for (const SectionChain& chain : chains) n += chain.segments.size();
+  for (const SectionChain& chain : chains)
+    n += chain.segments.size();
   return n;
 }
 
@@ -132,11 +137,13 @@ std::optional<SectionLine> assemble_line(std::vector<SectionChain> chains, const
       hidden += std::max(0.0, std::min(at + arc.sweep, other.sweep) - at) +
                 std::max(0.0, std::min(at + arc.sweep - 1, other.sweep));
     }
-    if (hidden > 0.5 * arc.sweep) continue;
+    if (hidden > 0.5 * arc.sweep)
+      continue;
     taken.push_back(arc);
     covered += arc.sweep - hidden;
   }
-  if (taken.empty() || covered < 1 - open) return std::nullopt;
+  if (taken.empty() || covered < 1 - open)
+    return std::nullopt;
   std::stable_sort(taken.begin(), taken.end(),
                    [](const Arc& a, const Arc& b) { return a.from < b.from; });
   SectionLine line;
@@ -147,7 +154,8 @@ std::optional<SectionLine> assemble_line(std::vector<SectionChain> chains, const
     line.rest += chain.rest_length;
     line.elsewhere += chain.elsewhere;
   }
-  for (const Arc& arc : taken) line.chains.push_back(std::move(*arc.chain));
+  for (const Arc& arc : taken)
+    line.chains.push_back(std::move(*arc.chain));
   line.lying += line.bridged;
   line.rest += line.bridged;
   line.elsewhere += line.bridged;
@@ -160,11 +168,13 @@ std::vector<SectionChain> cut_garment(const Garment& garment, const std::vector<
   std::vector<double> height(garment.position.size());
   for (std::size_t i = 0; i < height.size(); ++i) {
     height[i] = (garment.position[i] - point).dot(normal);
-    if (std::abs(height[i]) < 1e-7) height[i] = 1e-7;
+    if (std::abs(height[i]) < 1e-7)
+      height[i] = 1e-7;
   }
   std::vector<Cut> cuts;
   for (std::size_t f = 0; f < garment.panels.triangles.size(); ++f)
-    if (use.empty() || use[f]) add_cut(garment, static_cast<int>(f), height, elsewhere, cuts);
+    if (use.empty() || use[f])
+      add_cut(garment, static_cast<int>(f), height, elsewhere, cuts);
   std::map<EdgeKey, std::vector<int>> at_edge;
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     at_edge[cuts[c].edge_a].push_back(static_cast<int>(c));
@@ -177,7 +187,8 @@ std::vector<SectionChain> cut_garment(const Garment& garment, const std::vector<
     for (;;) {
       const std::vector<int>& here = at_edge[edge];
       const auto next = std::find_if(here.begin(), here.end(), [&](int c) { return !taken[c]; });
-      if (next == here.end()) return line;
+      if (next == here.end())
+        return line;
       taken[*next] = 1;
       Cut& cut = cuts[*next];
       if (cut.edge_a != edge) {
@@ -190,7 +201,8 @@ std::vector<SectionChain> cut_garment(const Garment& garment, const std::vector<
   };
   std::vector<SectionChain> chains;
   for (std::size_t c = 0; c < cuts.size(); ++c) {
-    if (taken[c]) continue;
+    if (taken[c])
+      continue;
     taken[c] = 1;
     const std::vector<SectionSegment> forward = follow(cuts[c].edge_b),
                                       backward = follow(cuts[c].edge_a);

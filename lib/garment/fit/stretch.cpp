@@ -25,11 +25,14 @@ constexpr double TELLING_SHARE =
 std::string panel_of(const Garment& garment, int particle) {
   for (const pattern::PanelInfo& panel : garment.panels.panels)
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v)
-      if (garment.particle_of[v] == particle) return panel.name;
+      if (garment.particle_of[v] == particle)
+        return panel.name;
   return "";
 }
 
-std::string strain_text(double strain) { return percent(strain, strain < 0.1 ? 1 : 0); }
+std::string strain_text(double strain) {
+  return percent(strain, strain < 0.1 ? 1 : 0);
+}
 
 std::string stretch_text(const Stretch& s, const Garment& garment, const io::Json& quality) {
   const int held = quality.value("particles_held", 0);
@@ -55,7 +58,8 @@ Stretch stretch_of(const Garment& garment) {
     softest = std::min({softest, material.stretch_warp_n_m, material.stretch_weft_n_m});
     std::vector<Weighted> own;
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
-      if (!(strains[f].area > 0)) continue;
+      if (!(strains[f].area > 0))
+        continue;
       list.push_back(f);
       own.push_back({strains[f].thread(), strains[f].area});
     }
@@ -84,7 +88,8 @@ Stretch stretch_of(const Garment& garment) {
 }
 
 std::optional<std::string> stretched_place(const Stretch& s) {
-  if (s.p99 > s.bound || s.max < TIMES_AT_ONE_PLACE * s.bound) return std::nullopt;
+  if (s.p99 > s.bound || s.max < TIMES_AT_ONE_PLACE * s.bound)
+    return std::nullopt;
   return "one place is stretched by " + strain_text(s.max) + ", in panel " + s.place_panel +
          " at " + sloper::place_text(s.place.x(), s.place.y(), s.place.z()) +
          " m, though 99 % of the cloth is by less than " + strain_text(s.p99);
@@ -99,7 +104,8 @@ std::optional<double> stretch_elsewhere(const Garment& garment, const std::strin
 void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start,
                    std::optional<double> before, std::vector<Message>& findings,
                    Reporter& reporter) {
-  if (start.body.empty() || garment.particle_of.empty()) return;
+  if (start.body.empty() || garment.particle_of.empty())
+    return;
   DrapeReport& report = outcome.report;
   const Stretch now = stretch_of(garment);
   const bool failed =
@@ -112,7 +118,8 @@ void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start,
              ": look there (render-png --map strain), it is drawn over something or caught"});
     reporter.warning(findings.back());
   }
-  if (!failed && (before || !report.converged || now.p99 <= now.bound)) return;
+  if (!failed && (before || !report.converged || now.p99 <= now.bound))
+    return;
   const std::string retarget = "retarget-garment --garment ";
   findings.push_back(
       {"drape.stretched"_id,
@@ -121,7 +128,8 @@ void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start,
                          retarget + file + " --to " + body + " does"
                    : retarget + "FILE --to " + body + " --fit FIT tells how it fits")});
   reporter.warning(findings.back());
-  if (!failed || !report.converged) return;
+  if (!failed || !report.converged)
+    return;
   report.converged = garment.converged = false;
   report.stop_reason = StopReason::AT_REST_STRETCHED;
   report.stop_detail = strain_text(now.p99) + ", on its own body by " + strain_text(*before);

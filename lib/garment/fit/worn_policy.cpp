@@ -24,26 +24,33 @@ void follow_fabric(const Garment& source, FitPolicy& policy) {
 void follow_worn(const Garment& source, const body::Body& body, const collision::BodyCollider& skin,
                  const std::string& body_sha256, FitPolicy& policy) {
   const Stretch worn = stretch_of(source);
-  if (!source.converged || worn.p99 > worn.bound) return;
+  if (!source.converged || worn.p99 > worn.bound)
+    return;
   policy.worn_p99 = std::max(worn.p99, 1e-9); // cloth that is not stretched was worn, too
   policy.worn_max = worn.max;
-  if (source.body_sha256.empty() || source.body_sha256 != body_sha256) return;
+  if (source.body_sha256.empty() || source.body_sha256 != body_sha256)
+    return;
   std::map<std::string, double> ease;
   const FitReport here = fit_garment(source, body, skin, policy, nullptr, {}, source.body_girths_m);
-  for (const FitRow& row : here.rows) ease[row.name] = row.ease_m / row.body_m;
+  for (const FitRow& row : here.rows)
+    ease[row.name] = row.ease_m / row.body_m;
   policy.worn_here = std::move(ease);
 }
 
 std::string rule_text(const FitRule& rule, const std::string& policy) {
-  if (rule.key.empty()) return {};
+  if (rule.key.empty())
+    return {};
   std::string limit = percent(rule.limit);
-  if (rule.key == "slip_m") limit = centimetres(rule.limit);
-  if (!std::isfinite(rule.limit)) limit = "as far as the hip holds it";
+  if (rule.key == "slip_m")
+    limit = centimetres(rule.limit);
+  if (!std::isfinite(rule.limit))
+    limit = "as far as the hip holds it";
   return rule.key + " of policy " + policy + ", " + limit;
 }
 
 std::string unknown_strain_text(const FitReport& fit) {
-  if (!fit.fits || !fit.bears || fit.probability.rule != "strain_unknown") return {};
+  if (!fit.fits || !fit.bears || fit.probability.rule != "strain_unknown")
+    return {};
   const std::string where =
       fit.bears_at.empty() ? "" : "at the " + spoken_girth(fit.bears_at) + " ";
   return "fits as far as is known: not if, on the body that wore it, it was stretched " + where +

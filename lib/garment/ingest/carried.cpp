@@ -27,25 +27,29 @@ std::vector<Mat3> rotations_of(const std::vector<Vec3>& before, const std::vecto
     for (int k = 0; k < 3; ++k)
       own += (before[t[(k + 1) % 3]] - before[t[k]]) *
              (after[t[(k + 1) % 3]] - after[t[k]]).transpose();
-    for (const int i : t) covariance[i] += own;
+    for (const int i : t)
+      covariance[i] += own;
   }
   std::vector<Mat3> rotations(before.size(), Mat3::Identity());
   for (std::size_t i = 0; i < before.size(); ++i)
-    if (covariance[i].norm() > 0) rotations[i] = nearest_rotation(covariance[i]);
+    if (covariance[i].norm() > 0)
+      rotations[i] = nearest_rotation(covariance[i]);
   return rotations;
 }
 
 /// How far out of the body a place is to be moved, along which normal.
 Vec3 way_out(const Vec3& p, const collision::BodyCollider& skin) {
   const collision::SignedDistance d = skin.signed_distance(p, DEEPEST_M);
-  if (d.triangle < 0 || d.distance >= LEAST_GAP_M) return Vec3::Zero();
+  if (d.triangle < 0 || d.distance >= LEAST_GAP_M)
+    return Vec3::Zero();
   return (LEAST_GAP_M - d.distance) * d.normal;
 }
 
 void move_rigidly(const Carried& carried, const collision::BodyCollider* skin, Moved& moved) {
   std::map<int, std::vector<int>> parts;
   for (std::size_t i = 0; i < carried.rigid.size(); ++i)
-    if (carried.rigid[i] >= 0) parts[carried.rigid[i]].push_back(static_cast<int>(i));
+    if (carried.rigid[i] >= 0)
+      parts[carried.rigid[i]].push_back(static_cast<int>(i));
   for (const auto& [part, places] : parts) {
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     for (const int i : places) {
@@ -60,11 +64,13 @@ void move_rigidly(const Carried& carried, const collision::BodyCollider* skin, M
     for (const int i : places) {
       moved.place[i] = to + rotation * (carried.place[i] - from);
       moved.turned[i] = rotation;
-      if (!skin) continue;
+      if (!skin)
+        continue;
       if (const Vec3 outwards = way_out(moved.place[i], *skin); outwards.norm() > out.norm())
         out = outwards;
     }
-    for (const int i : places) moved.place[i] += out;
+    for (const int i : places)
+      moved.place[i] += out;
   }
 }
 
@@ -82,7 +88,8 @@ Carried carry_on(std::vector<Vec3> place, std::vector<int> particle, std::vector
   const collision::TriangleTree tree(cloth, triangles);
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (carried.particle[i] >= 0) continue;
+      if (carried.particle[i] >= 0)
+        continue;
       const collision::ClosestPoint c =
           tree.closest_point(carried.place[i], std::numeric_limits<double>::infinity());
       carried.triangle[i] = c.triangle;
@@ -116,7 +123,8 @@ Moved carry_along(const Carried& carried, const std::vector<Vec3>& before,
         covariance += b * rotation[t[k]].transpose();
       }
       moved.turned[i] = nearest_rotation(covariance);
-      if (skin && carried.rigid[i] < 0) x += way_out(x, *skin);
+      if (skin && carried.rigid[i] < 0)
+        x += way_out(x, *skin);
       moved.place[i] = x;
     }
   });

@@ -45,7 +45,8 @@ double met_at(const MeshSurface& s, int f, const Vec3& a, const Vec3& b) {
   const Vec3 &p = s.position[t[0]], e1 = s.position[t[1]] - p, e2 = s.position[t[2]] - p, d = b - a;
   const Vec3 h = d.cross(e2);
   const double det = e1.dot(h);
-  if (std::abs(det) < 1e-18) return 2;
+  if (std::abs(det) < 1e-18)
+    return 2;
   const Vec3 r = a - p, q = r.cross(e1);
   const double u = r.dot(h) / det, v = d.dot(q) / det, w = e2.dot(q) / det;
   return u >= -1e-9 && v >= -1e-9 && u + v <= 1 + 1e-9 && w > 0 ? w : 2;
@@ -70,10 +71,12 @@ OtherSide other_side(const MeshSurface& s, const collision::TriangleTree& tree, 
       box.add(a);
       box.add(b);
       tree.visit_overlaps(box, [&](int g) {
-        if (s.component[g] != s.component[f] || g == f || normal_of(s, g).dot(n) > OPPOSITE) return;
+        if (s.component[g] != s.component[f] || g == f || normal_of(s, g).dot(n) > OPPOSITE)
+          return;
         for (const int v : s.triangles[g])
           for (const int w : s.triangles[f])
-            if (v == w) return;
+            if (v == w)
+              return;
         const double depth = met_at(s, g, a, b) * SHELL_DEPTH_M;
         if (depth < other.depth[i] || (depth == other.depth[i] && g < other.partner[i])) {
           other.depth[i] = depth;
@@ -92,10 +95,12 @@ std::vector<int> parts_of(const MeshSurface& s, const collision::Topology& topol
   DisjointSets sets(s.triangles.size());
   for (std::size_t e = 0; e < topology.edges.size(); ++e) {
     const auto around = topology.triangles_of_edge(static_cast<int>(e));
-    if (around.size() == 2 && joins(around[0], around[1])) sets.unite(around[0], around[1]);
+    if (around.size() == 2 && joins(around[0], around[1]))
+      sets.unite(around[0], around[1]);
   }
   std::vector<int> part(s.triangles.size());
-  for (std::size_t f = 0; f < part.size(); ++f) part[f] = sets.find(static_cast<int>(f));
+  for (std::size_t f = 0; f < part.size(); ++f)
+    part[f] = sets.find(static_cast<int>(f));
   return part;
 }
 
@@ -118,7 +123,8 @@ void part_shell(const MeshSurface& s, const collision::Topology& topology, const
   std::map<int, Side> sides;
   for (std::size_t i = 0; i < s.triangles.size(); ++i) {
     const int f = static_cast<int>(i);
-    if (!own(f)) continue;
+    if (!own(f))
+      continue;
     const double area = area_of(s, f);
     Side& of = sides[side[f]];
     of.area += area;
@@ -136,13 +142,16 @@ void part_shell(const MeshSurface& s, const collision::Topology& topology, const
   }
   for (std::size_t i = 0; i < s.triangles.size(); ++i) {
     const int f = static_cast<int>(i);
-    if (!own(f)) continue;
+    if (!own(f))
+      continue;
     const Side& of = sides.at(side[f]);
     bool outer = of.outer > 0;
     if (other.partner[f] < 0) // the rim is a narrow strip
       outer = of.border > 0 && 2 * of.area / of.border < RIM_WIDTH * SHELL_DEPTH_M;
-    else if (of.mixed > MIXED_SHARE * of.area) outer = distance(f) > distance(other.partner[f]);
-    if (outer) role[i] = ClothRole::LAYER;
+    else if (of.mixed > MIXED_SHARE * of.area)
+      outer = distance(f) > distance(other.partner[f]);
+    if (outer)
+      role[i] = ClothRole::LAYER;
   }
 }
 
@@ -175,8 +184,10 @@ std::vector<Piece> pieces_of(const MeshSurface& s, const std::vector<double>& sk
 bool lies_on(const MeshSurface& s, const Piece& piece, const std::vector<const Piece*>& others) {
   std::vector<Triangle> under;
   for (const Piece* other : others)
-    for (const int f : other->triangles) under.push_back(s.triangles[f]);
-  if (under.empty()) return false;
+    for (const int f : other->triangles)
+      under.push_back(s.triangles[f]);
+  if (under.empty())
+    return false;
   const collision::TriangleTree tree(s.position, under);
   std::size_t near = 0;
   for (const int v : piece.places)
@@ -197,7 +208,8 @@ ClothRoles cloth_roles(const MeshSurface& s, const collision::BodyCollider& skin
   });
   const std::vector<Piece> pieces = pieces_of(s, skin_distance);
   const auto set_role = [&](const Piece& piece, ClothRole role) {
-    for (const int f : piece.triangles) roles.of_triangle[f] = role;
+    for (const int f : piece.triangles)
+      roles.of_triangle[f] = role;
   };
 
   std::vector<int> order(pieces.size()); // the largest first
@@ -239,21 +251,26 @@ ClothRoles cloth_roles(const MeshSurface& s, const collision::BodyCollider& skin
     double area[2] = {0, 0};
     for (const int f : piece->triangles)
       for (int k = 0; k < 2; ++k)
-        if (behind[k].partner[f] >= 0) area[k] += area_of(s, f);
+        if (behind[k].partner[f] >= 0)
+          area[k] += area_of(s, f);
     OtherSide& other = behind[area[1] > area[0]];
-    if (std::max(area[0], area[1]) < SHELL_SHARE * piece->area) continue;
+    if (std::max(area[0], area[1]) < SHELL_SHARE * piece->area)
+      continue;
     std::vector<double> own;
     for (const int f : piece->triangles)
-      if (other.partner[f] >= 0) own.push_back(other.depth[f]);
+      if (other.partner[f] >= 0)
+        own.push_back(other.depth[f]);
     const double thickness = upper_median(own);
     for (const int f : piece->triangles)
-      if (other.depth[f] > SHELL_SPREAD * thickness) other.partner[f] = -1;
+      if (other.depth[f] > SHELL_SPREAD * thickness)
+        other.partner[f] = -1;
     part_shell(s, topology, other, skin_distance, s.component[piece->triangles.front()],
                roles.of_triangle);
     depths.push_back(thickness);
     ++roles.shells;
   }
-  if (!depths.empty()) roles.thickness_m = upper_median(depths);
+  if (!depths.empty())
+    roles.thickness_m = upper_median(depths);
   return roles;
 }
 

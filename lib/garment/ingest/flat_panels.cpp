@@ -67,7 +67,8 @@ public:
     while (!m_queue.empty()) {
       const auto [distance, f, from] = m_queue.top();
       m_queue.pop();
-      if (m_taken[f]) continue;
+      if (m_taken[f])
+        continue;
       m_taken[f] = 1;
       lay(f, from);
       ask_neighbours(static_cast<int>(m_piece.triangles.size()) - 1);
@@ -84,7 +85,7 @@ private:
     return (m_surface.position[t[0]] + m_surface.position[t[1]] + m_surface.position[t[2]]) / 3;
   }
   int add_place(int particle, const Vec2& at) {
-    const int own = static_cast<int>(m_piece.at.size());
+    const int own = std::ssize(m_piece.at);
     m_piece.at.push_back(at);
     m_piece.particle.push_back(particle);
     m_places[particle].push_back(own);
@@ -98,7 +99,8 @@ private:
     const Vec3 normal = area_normal(x[t[0]], x[t[1]], x[t[2]]).normalized();
     Vec3 warp = m_surface.warp_of_region[m_surface.region[f]];
     warp -= warp.dot(normal) * normal;
-    if (warp.norm() < 0.1) warp = x[t[1]] - x[t[0]]; // it lies square to the warp
+    if (warp.norm() < 0.1)
+      warp = x[t[1]] - x[t[0]]; // it lies square to the warp
     warp.normalize();
     const Vec3 weft = warp.cross(normal);
     Triangle corners;
@@ -111,10 +113,12 @@ private:
 
   bool fits(const Triangle& t, const Vec2& a, const Vec2& b, const Vec2& c) const {
     const Vec2 p[3] = {a, b, c};
-    if (flat_area_of(a, b, c) < LEAST_FLAT_AREA) return false;
+    if (flat_area_of(a, b, c) < LEAST_FLAT_AREA)
+      return false;
     for (int k = 0; k < 3; ++k) {
       const double rest = length(t[k], t[(k + 1) % 3]), now = (p[k] - p[(k + 1) % 3]).norm();
-      if (std::abs(now - rest) > UNROLLED_STRETCH * rest) return false;
+      if (std::abs(now - rest) > UNROLLED_STRETCH * rest)
+        return false;
     }
     return true;
   }
@@ -124,7 +128,8 @@ private:
     Vec2 sum = fallback;
     int n = 1;
     for (const int g : m_topology.triangles_of_vertex(particle)) {
-      if (m_surface.region[g] != region) continue;
+      if (m_surface.region[g] != region)
+        continue;
       const Triangle& u = m_surface.triangles[g];
       const auto k = static_cast<int>(std::find(u.begin(), u.end(), particle) - u.begin());
       const int i = u[(k + 1) % 3], j = u[(k + 2) % 3];
@@ -134,7 +139,8 @@ private:
         continue;
       const Vec2 at = third_corner(m_piece.at[a->second[0]], m_piece.at[b->second[0]], length(i, j),
                                    length(particle, i), length(particle, j));
-      if ((at - fallback).norm() > UNROLLED_STRETCH * length(particle, i)) continue;
+      if ((at - fallback).norm() > UNROLLED_STRETCH * length(particle, i))
+        continue;
       sum += at;
       ++n;
     }
@@ -145,7 +151,8 @@ private:
   void lay(int f, int from) {
     const Triangle &t = m_surface.triangles[f], &g = m_surface.triangles[m_piece.triangles[from]];
     int apex = 0; // the corner that the other triangle has not
-    while (std::find(g.begin(), g.end(), t[apex]) != g.end()) ++apex;
+    while (std::find(g.begin(), g.end(), t[apex]) != g.end())
+      ++apex;
     const int i = t[(apex + 1) % 3], j = t[(apex + 2) % 3];
     const auto place_in = [&](int particle) {
       return m_piece.corners[from][std::find(g.begin(), g.end(), particle) - g.begin()];
@@ -166,7 +173,8 @@ private:
       }
     if (corners[apex] < 0) {
       Vec2 at = m_places[t[apex]].empty() ? wanted(t[apex], m_surface.region[f], alone) : alone;
-      if (!fits(turned, at, a, b)) at = alone;
+      if (!fits(turned, at, a, b))
+        at = alone;
       corners[apex] = add_place(t[apex], at);
     }
     m_piece.triangles.push_back(f);
@@ -177,7 +185,8 @@ private:
     const int f = m_piece.triangles[own];
     for (const int e : m_topology.triangle_edges[f]) {
       const auto around = m_topology.triangles_of_edge(e);
-      if (around.size() != 2) continue;
+      if (around.size() != 2)
+        continue;
       const int g = around[0] == f ? around[1] : around[0];
       if (!m_taken[g] && m_surface.region[g] == m_surface.region[f])
         m_queue.push({(middle(g) - m_middle).norm(), g, own});
@@ -199,10 +208,12 @@ std::vector<int> outline_of(const std::vector<Triangle>& triangles,
                             const std::vector<Vec2>& pattern) {
   std::map<std::array<int, 2>, int> count;
   for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) ++count[{t[k], t[(k + 1) % 3]}];
+    for (int k = 0; k < 3; ++k)
+      ++count[{t[k], t[(k + 1) % 3]}];
   std::map<int, int> next;
   for (const auto& [edge, n] : count)
-    if (!count.count({edge[1], edge[0]})) next.emplace(edge[0], edge[1]);
+    if (!count.count({edge[1], edge[0]}))
+      next.emplace(edge[0], edge[1]);
   std::vector<int> longest;
   double longest_length = -1;
   while (!next.empty()) {
@@ -238,7 +249,7 @@ void add_panel(const std::vector<FlatPiece>& pieces, FlatPanels& flat) {
       left = std::min(left, at.x());
       most = std::max(most, at.x());
     }
-    const int first = static_cast<int>(mesh.pattern.size());
+    const int first = std::ssize(mesh.pattern);
     for (std::size_t i = 0; i < piece.at.size(); ++i) {
       mesh.pattern.emplace_back(piece.at[i].x() - left + right, piece.at[i].y());
       flat.particle_of.push_back(piece.particle[i]);
@@ -276,7 +287,8 @@ void add_seams(FlatPanels& flat) {
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f)
       for (int c = 0; c < 3; ++c) {
         int from = mesh.triangles[f][c], to = mesh.triangles[f][(c + 1) % 3];
-        if (flat.particle_of[from] > flat.particle_of[to]) std::swap(from, to);
+        if (flat.particle_of[from] > flat.particle_of[to])
+          std::swap(from, to);
         sides[{flat.particle_of[from], flat.particle_of[to]}].push_back(
             {from, to, static_cast<int>(k)});
       }
@@ -285,9 +297,11 @@ void add_seams(FlatPanels& flat) {
   using Pair = std::array<int, 2>; // panel vertices that are one particle
   std::map<std::array<int, 2>, std::map<Pair, std::vector<Pair>>> borders; // by panels
   for (const auto& [edge, around] : sides) {
-    if (around.size() != 2) continue;
+    if (around.size() != 2)
+      continue;
     const Side &a = around[0], &b = around[1];
-    if (a.from == b.from && a.to == b.to) continue; // inside a panel
+    if (a.from == b.from && a.to == b.to)
+      continue; // inside a panel
     auto& border = borders[{a.panel, b.panel}];
     border[{a.from, b.from}].push_back({a.to, b.to});
     border[{a.to, b.to}].push_back({a.from, b.from});
@@ -344,7 +358,8 @@ void finish(const CurvedSurface& s, FlatPanels& flat) {
   double sum = 0;
   std::size_t n = 0;
   for (const Triangle& t : s.triangles)
-    for (int k = 0; k < 3; ++k, ++n) sum += (s.position[t[k]] - s.position[t[(k + 1) % 3]]).norm();
+    for (int k = 0; k < 3; ++k, ++n)
+      sum += (s.position[t[k]] - s.position[t[(k + 1) % 3]]).norm();
   flat.panels.edge_length = n > 0 ? sum / static_cast<double>(n) : 0;
   flat.panels.placement = pattern::Placement::STATED;
   add_seams(flat);
@@ -363,12 +378,16 @@ FlatPanels unrolled_panels(const CurvedSurface& s) {
   Unroller unroller(s, topology, taken);
   std::vector<FlatPiece> small;
   for (const int seed : order) {
-    if (taken[seed]) continue;
+    if (taken[seed])
+      continue;
     FlatPiece piece = unroller.grow(seed);
-    if (static_cast<int>(piece.triangles.size()) < SMALL_PANEL) small.push_back(std::move(piece));
-    else add_panel({std::move(piece)}, flat);
+    if (static_cast<int>(piece.triangles.size()) < SMALL_PANEL)
+      small.push_back(std::move(piece));
+    else
+      add_panel({std::move(piece)}, flat);
   }
-  if (!small.empty()) add_panel(small, flat);
+  if (!small.empty())
+    add_panel(small, flat);
   add_rest_scale(s, flat);
   finish(s, flat);
   return flat;
@@ -377,12 +396,14 @@ FlatPanels unrolled_panels(const CurvedSurface& s) {
 TextureIsometry texture_isometry(const CurvedSurface& s, const std::vector<Vec2>& texture,
                                  const std::vector<Triangle>& corners) {
   TextureIsometry result;
-  if (corners.size() != s.triangles.size() || corners.empty()) return result;
+  if (corners.size() != s.triangles.size() || corners.empty())
+    return result;
   std::vector<double> off(corners.size(), 0); // by how much a triangle's edges are off, at most
   double total = 0;
   for (std::size_t f = 0; f < corners.size(); ++f) {
     for (const int c : corners[f])
-      if (c < 0) return result;
+      if (c < 0)
+        return result;
     total += space_area(s, static_cast<int>(f));
   }
   Eigen::Vector2d squares(0, 0);
@@ -390,7 +411,8 @@ TextureIsometry texture_isometry(const CurvedSurface& s, const std::vector<Vec2>
     Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
     Eigen::Vector2d right(0, 0);
     for (std::size_t f = 0; f < corners.size(); ++f) {
-      if (round > 0 && off[f] > 2 * TEXTURE_STRETCH) continue;
+      if (round > 0 && off[f] > 2 * TEXTURE_STRETCH)
+        continue;
       for (int k = 0; k < 3; ++k) {
         const Vec2 d = texture[corners[f][k]] - texture[corners[f][(k + 1) % 3]];
         const double length =
@@ -401,9 +423,11 @@ TextureIsometry texture_isometry(const CurvedSurface& s, const std::vector<Vec2>
         right += weight * row;
       }
     }
-    if (std::abs(normal.determinant()) < 1e-300) return result;
+    if (std::abs(normal.determinant()) < 1e-300)
+      return result;
     squares = normal.inverse() * right;
-    if (!(squares.minCoeff() > 0)) return result;
+    if (!(squares.minCoeff() > 0))
+      return result;
     for (std::size_t f = 0; f < corners.size(); ++f) {
       off[f] = 0;
       for (int k = 0; k < 3; ++k) {
@@ -423,9 +447,11 @@ TextureIsometry texture_isometry(const CurvedSurface& s, const std::vector<Vec2>
       result.u_m = result.v_m = unit;
   double good = 0;
   for (std::size_t f = 0; f < corners.size(); ++f)
-    if (off[f] <= TEXTURE_STRETCH) good += space_area(s, static_cast<int>(f));
+    if (off[f] <= TEXTURE_STRETCH)
+      good += space_area(s, static_cast<int>(f));
   result.share = total > 0 ? good / total : 0;
-  if (result.share < TEXTURE_SHARE) return result;
+  if (result.share < TEXTURE_SHARE)
+    return result;
   // Each piece lies one side up, and no triangle is without area.
   DisjointSets joined(texture.size());
   for (const Triangle& c : corners) {
@@ -438,9 +464,11 @@ TextureIsometry texture_isometry(const CurvedSurface& s, const std::vector<Vec2>
     const double area =
         flat_area_of(texture[c[0]].cwiseProduct(scale), texture[c[1]].cwiseProduct(scale),
                      texture[c[2]].cwiseProduct(scale));
-    if (std::abs(area) < LEAST_FLAT_AREA) return result;
+    if (std::abs(area) < LEAST_FLAT_AREA)
+      return result;
     const int own = area > 0 ? 1 : -1;
-    if (sign.try_emplace(joined.find(c[0]), own).first->second != own) return result;
+    if (sign.try_emplace(joined.find(c[0]), own).first->second != own)
+      return result;
   }
   result.is_pattern = true;
   return result;
@@ -459,7 +487,8 @@ FlatPanels texture_panels(const CurvedSurface& s, const std::vector<Vec2>& textu
     for (int k = 0; k < 3; ++k) {
       const std::array<int, 2> key{corners[f][k], s.triangles[f][k]};
       const auto [found, is_new] = number.try_emplace(key, static_cast<int>(number.size()));
-      if (is_new) of_number.push_back(key);
+      if (is_new)
+        of_number.push_back(key);
       own[f][k] = found->second;
     }
   DisjointSets joined(number.size());
@@ -488,9 +517,11 @@ FlatPanels texture_panels(const CurvedSurface& s, const std::vector<Vec2>& textu
         const auto [found, is_new] =
             vertex.try_emplace(own[f][k], static_cast<int>(mesh.pattern.size()));
         t[k] = found->second;
-        if (!is_new) continue;
+        if (!is_new)
+          continue;
         Vec2 at = texture[of_number[own[f][k]][0]].cwiseProduct(scale);
-        if (turned) at.x() = -at.x();
+        if (turned)
+          at.x() = -at.x();
         mesh.pattern.push_back(at);
         flat.particle_of.push_back(of_number[own[f][k]][1]);
         low = low.cwiseMin(at);

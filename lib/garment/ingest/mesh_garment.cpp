@@ -40,19 +40,22 @@ Mat4 scaled(double unit_m) {
 
 std::vector<Vec3> moved_by(const Mat4& m, const std::vector<Vec3>& points) {
   std::vector<Vec3> out;
-  for (const Vec3& p : points) out.push_back((m * p.homogeneous()).head<3>());
+  for (const Vec3& p : points)
+    out.push_back((m * p.homogeneous()).head<3>());
   return out;
 }
 
 double nearness_of(const std::vector<Vec3>& points, const collision::BodyCollider& skin) {
   const double size = bounding_box(points).size().norm();
-  if (!(size >= SMALLEST_M && size <= LARGEST_M)) return 0;
+  if (!(size >= SMALLEST_M && size <= LARGEST_M))
+    return 0;
   const std::size_t stride = points.size() / ASKED + 1;
   double sum = 0;
   std::size_t n = 0;
   for (std::size_t i = 0; i < points.size(); i += stride, ++n) {
     const double d = skin.signed_distance(points[i], 10 * NEAR_M).distance;
-    if (!std::isfinite(d)) continue;
+    if (!std::isfinite(d))
+      continue;
     sum += d < -INSIDE_M ? -1 : std::exp(-std::abs(d) / NEAR_M);
   }
   return sum / static_cast<double>(n);
@@ -70,11 +73,14 @@ WornFrame frame_of(const io::MeshFile& file, const body::Body& from,
   WornFrame best;
   for (const double unit : UNITS_M) {
     const double nearness = nearness_of(moved_by(scaled(unit), file.positions), skin);
-    if (nearness > best.nearness) best = {false, unit, nearness};
+    if (nearness > best.nearness)
+      best = {false, unit, nearness};
   }
   const double in_scan = nearness_of(moved_by(from.scan_to_body, file.positions), skin);
-  if (in_scan > CLEARLY_NEARER * best.nearness) best = {true, 1, in_scan};
-  if (best.nearness >= LEAST_NEARNESS) return best;
+  if (in_scan > CLEARLY_NEARER * best.nearness)
+    best = {true, 1, in_scan};
+  if (best.nearness >= LEAST_NEARNESS)
+    return best;
   const Box3 box = bounding_box(file.positions);
   const Vec3 size = box.size();
   throw input_error("import.not-worn"_id, file.name, "",
@@ -101,15 +107,18 @@ Regions regions_of(const Garment& cloth, const body::Body& body) {
   const auto region_of = [&](int frame) {
     const BindFrame& f = frames.frames[frame];
     std::string name = f.name == "head" ? "torso" : f.name;
-    if (name.rfind("forearm", 0) == 0) name = "upper_arm" + name.substr(7);
+    if (name.rfind("forearm", 0) == 0)
+      name = "upper_arm" + name.substr(7);
     const auto [found, is_new] = number.try_emplace(name, static_cast<int>(number.size()));
-    if (is_new) regions.warp.push_back((f.frame.upper - f.frame.lower).normalized());
+    if (is_new)
+      regions.warp.push_back((f.frame.upper - f.frame.lower).normalized());
     return found->second;
   };
   for (const Triangle& t : cloth.panels.triangles) {
     std::map<int, double> share;
     for (const int v : t)
-      for (const auto& [frame, weight] : weights[v]) share[region_of(frame)] += weight;
+      for (const auto& [frame, weight] : weights[v])
+        share[region_of(frame)] += weight;
     regions.of_triangle.push_back(
         std::max_element(share.begin(), share.end(), [](const auto& a, const auto& b) {
           return a.second < b.second;
@@ -198,15 +207,19 @@ MeshGarment read_mesh_garment(const std::string& path, const body::Body& from,
   CurvedSurface curved;
   std::vector<Triangle> cloth, texture;
   for (std::size_t f = 0; f < s.triangles.size(); ++f) {
-    if (m.roles.of_triangle[f] != ClothRole::CLOTH) continue;
+    if (m.roles.of_triangle[f] != ClothRole::CLOTH)
+      continue;
     cloth.push_back(s.triangles[f]);
-    if (!s.texture.empty()) texture.push_back(s.texture[f]);
+    if (!s.texture.empty())
+      texture.push_back(s.texture[f]);
   }
   for (const Triangle& t : cloth)
-    for (const int v : t) particle[v] = 0;
+    for (const int v : t)
+      particle[v] = 0;
   std::vector<Vec3> outward(s.position.size(), Vec3::Zero());
   for (std::size_t v = 0; v < particle.size(); ++v) {
-    if (particle[v] < 0) continue;
+    if (particle[v] < 0)
+      continue;
     outward[v] =
         skin.signed_distance(s.position[v], std::numeric_limits<double>::infinity()).normal;
     particle[v] = static_cast<int>(curved.position.size());
@@ -232,7 +245,8 @@ MeshGarment read_mesh_garment(const std::string& path, const body::Body& from,
   g.particle_of = std::move(flat.particle_of);
   g.rest_scale = std::move(flat.rest_scale);
   g.position = curved.position;
-  for (const int p : g.particle_of) g.panels.placed.push_back(g.position[p]);
+  for (const int p : g.particle_of)
+    g.panels.placed.push_back(g.position[p]);
   g.materials[""] = material_preset(fabric);
   g.offset_m = DrapeSettings().contact_gap_m; // as of any drape
   g.converged = true;
@@ -299,7 +313,8 @@ io::Json mesh_json(const MeshGarment& m, const DressedMesh* dressed) {
                 {"degenerate_triangles", m.surface.degenerate},
                 {"duplicate_triangles", m.surface.duplicates},
                 {"non_manifold_edges", m.surface.non_manifold_edges}};
-  if (!m.frame.in_scan) j["unit_m"] = m.frame.unit_m;
+  if (!m.frame.in_scan)
+    j["unit_m"] = m.frame.unit_m;
   j["before"] = {{"crossing_pairs", m.crossings}, {"faces_through_body", m.faces_through}};
   if (dressed)
     j["after"] = {{"crossing_pairs", dressed->crossings},

@@ -50,10 +50,12 @@ std::vector<std::array<int, 3>> cut(const std::vector<int>& face,
     // Of equal ones that with the lowest place, so that a quad and its other side are cut alike.
     const bool equal = std::abs(a - b) <= 1e-9 * (a + b);
     const bool lowest = std::min(face[1], face[3]) < std::min(face[0], face[2]);
-    if (equal ? lowest : b < a) return {{0, 1, 3}, {1, 2, 3}};
+    if (equal ? lowest : b < a)
+      return {{0, 1, 3}, {1, 2, 3}};
   }
   std::vector<std::array<int, 3>> fan;
-  for (int k = 2; k < static_cast<int>(face.size()); ++k) fan.push_back({0, k - 1, k});
+  for (int k = 2; k < std::ssize(face); ++k)
+    fan.push_back({0, k - 1, k});
   return fan;
 }
 
@@ -78,7 +80,8 @@ std::vector<EdgeSide> sides_of(const std::vector<Triangle>& triangles) {
 template<class Visit> void visit_edges(const std::vector<EdgeSide>& sides, Visit&& visit) {
   for (std::size_t u = 0; u < sides.size();) {
     std::size_t end = u;
-    while (end < sides.size() && sides[end].i == sides[u].i && sides[end].j == sides[u].j) ++end;
+    while (end < sides.size() && sides[end].i == sides[u].i && sides[end].j == sides[u].j)
+      ++end;
     visit(u, end);
     u = end;
   }
@@ -89,7 +92,8 @@ std::vector<int> face_alike(std::vector<Triangle>& triangles, std::vector<Triang
   const std::vector<EdgeSide> sides = sides_of(triangles);
   std::vector<std::vector<std::pair<int, bool>>> next(triangles.size()); // and whether it is turned
   visit_edges(sides, [&](std::size_t u, std::size_t end) {
-    if (end - u != 2) return;
+    if (end - u != 2)
+      return;
     const EdgeSide &a = sides[u], &b = sides[u + 1];
     next[a.triangle].emplace_back(b.triangle, a.along == b.along);
     next[b.triangle].emplace_back(a.triangle, a.along == b.along);
@@ -98,12 +102,14 @@ std::vector<int> face_alike(std::vector<Triangle>& triangles, std::vector<Triang
   std::vector<char> turned(triangles.size(), 0);
   int n = 0;
   for (std::size_t seed = 0; seed < triangles.size(); ++seed) {
-    if (piece[seed] >= 0) continue;
+    if (piece[seed] >= 0)
+      continue;
     std::vector<int> front{static_cast<int>(seed)};
     piece[seed] = n;
     for (std::size_t at = 0; at < front.size(); ++at)
       for (const auto& [f, other] : next[front[at]]) {
-        if (piece[f] >= 0) continue;
+        if (piece[f] >= 0)
+          continue;
         piece[f] = n;
         turned[f] = static_cast<char>(turned[front[at]] ^ static_cast<char>(other));
         front.push_back(f);
@@ -111,9 +117,11 @@ std::vector<int> face_alike(std::vector<Triangle>& triangles, std::vector<Triang
     ++n;
   }
   for (std::size_t f = 0; f < triangles.size(); ++f) {
-    if (!turned[f]) continue;
+    if (!turned[f])
+      continue;
     std::swap(triangles[f][1], triangles[f][2]);
-    if (!texture.empty()) std::swap(texture[f][1], texture[f][2]);
+    if (!texture.empty())
+      std::swap(texture[f][1], texture[f][2]);
   }
   return piece;
 }
@@ -124,7 +132,8 @@ std::vector<Triangle> all_triangles(const io::MeshFile& file, const MeshSurface&
   std::vector<Triangle> triangles;
   for (const std::vector<int>& face : file.faces) {
     std::vector<int> corners;
-    for (const int v : face) corners.push_back(surface.place_of[v]);
+    for (const int v : face)
+      corners.push_back(surface.place_of[v]);
     for (const auto& c : cut(corners, surface.position))
       triangles.push_back({corners[c[0]], corners[c[1]], corners[c[2]]});
   }
@@ -135,12 +144,14 @@ MeshSurface make_surface(const io::MeshFile& file, const std::vector<Vec3>& posi
   MeshSurface s;
   s.place_of = places_of(positions);
   for (std::size_t v = 0; v < positions.size(); ++v)
-    if (s.place_of[v] == static_cast<int>(s.position.size())) s.position.push_back(positions[v]);
+    if (s.place_of[v] == std::ssize(s.position))
+      s.position.push_back(positions[v]);
   const bool has_texture = !file.face_texture.empty();
   std::set<Triangle> known;
   for (std::size_t f = 0; f < file.faces.size(); ++f) {
     std::vector<int> corners;
-    for (const int v : file.faces[f]) corners.push_back(s.place_of[v]);
+    for (const int v : file.faces[f])
+      corners.push_back(s.place_of[v]);
     s.polygons += corners.size() > 3;
     for (const auto& c : cut(corners, s.position)) {
       const Triangle t{corners[c[0]], corners[c[1]], corners[c[2]]};
@@ -156,7 +167,8 @@ MeshSurface make_surface(const io::MeshFile& file, const std::vector<Vec3>& posi
         continue;
       }
       s.triangles.push_back(t);
-      if (!has_texture) continue;
+      if (!has_texture)
+        continue;
       const std::vector<int>& uv = file.face_texture[f];
       s.texture.push_back({uv[c[0]], uv[c[1]], uv[c[2]]});
     }
@@ -189,9 +201,11 @@ void face_outward(const std::vector<Vec3>& position, const std::vector<Vec3>& ou
                            .dot(outward[t[0]] + outward[t[1]] + outward[t[2]]);
   }
   for (std::size_t f = 0; f < triangles.size(); ++f) {
-    if (looks[piece[f]] >= 0) continue;
+    if (looks[piece[f]] >= 0)
+      continue;
     std::swap(triangles[f][1], triangles[f][2]);
-    if (!texture.empty()) std::swap(texture[f][1], texture[f][2]);
+    if (!texture.empty())
+      std::swap(texture[f][1], texture[f][2]);
   }
 }
 

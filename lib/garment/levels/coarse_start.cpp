@@ -44,25 +44,30 @@ void clear_of_skin(Garment& garment, const collision::BodyCollider& skin, double
     bool any = false;
     const auto push = [&](std::size_t i, const Vec3& by) {
       any = true;
-      if (by.squaredNorm() > out[i].squaredNorm()) out[i] = by;
+      if (by.squaredNorm() > out[i].squaredNorm())
+        out[i] = by;
     };
     for (std::size_t i = 0; i < out.size(); ++i) {
       const collision::SignedDistance d =
           skin.signed_distance(garment.position[i], CLEARING_REACH, hint[i]);
       hint[i] = d.triangle;
-      if (d.triangle >= 0 && d.distance < gap) push(i, (gap - d.distance) * d.normal);
+      if (d.triangle >= 0 && d.distance < gap)
+        push(i, (gap - d.distance) * d.normal);
     }
     for (const collision::FaceContact& c :
          skin.face_contacts(garment.position, triangles, topology, gap)) {
-      if (c.distance >= gap) continue;
-      const Triangle& t = triangles[static_cast<std::size_t>(c.triangle)];
+      if (c.distance >= gap)
+        continue;
+      const Triangle& t = triangles[c.triangle];
       for (std::size_t k = 0; k < 3; ++k)
         push(static_cast<std::size_t>(t[k]), c.barycentric[static_cast<int>(k)] /
                                                  c.barycentric.squaredNorm() * (gap - c.distance) *
                                                  c.normal);
     }
-    if (!any) return;
-    for (std::size_t i = 0; i < out.size(); ++i) garment.position[i] += out[i];
+    if (!any)
+      return;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      garment.position[i] += out[i];
   }
 }
 
@@ -75,10 +80,12 @@ pattern::PanelMesh coarse_panels(const pattern::PanelMesh& given) {
   coarse.body_sha256 = given.body_sha256;
   for (pattern::PanelInfo& panel : coarse.panels)
     for (const pattern::PanelInfo& same : given.panels)
-      if (same.name == panel.name) panel.part = same.part;
+      if (same.name == panel.name)
+        panel.part = same.part;
   for (pattern::MeshSeam& seam : coarse.seams)
     for (const pattern::MeshSeam& same : given.seams)
-      if (same.name == seam.name) seam.open = same.open;
+      if (same.name == seam.name)
+        seam.open = same.open;
   return coarse;
 }
 
@@ -96,12 +103,14 @@ std::string sew(Garment& cloth, CollisionBody& body, const DrapeSettings& settin
                 Reporter& reporter, DrapeReport& report) {
   const SoftSewing sewing = sew_softly(cloth, body, reporter);
   report.steps += sewing.steps;
-  if (!sewing.finite) return "coarse cloth diverged";
+  if (!sewing.finite)
+    return "coarse cloth diverged";
   if (sewing.widest_gap_m > WIDEST_GAP)
     return "a seam of the coarse mesh stayed open by " + millimetres_text(sewing.widest_gap_m);
   const SoftRelaxed relaxed =
       relax_softly(cloth, body, COARSE_RELAXING, settings.gravity_m_s2, reporter);
-  if (!relaxed.finite) return "coarse cloth diverged";
+  if (!relaxed.finite)
+    return "coarse cloth diverged";
   report.steps += COARSE_RELAXING.steps;
   report.levels.coarse_edge_m = COARSE_EDGE;
   report.levels.coarse_particles = static_cast<int>(cloth.position.size());
@@ -124,7 +133,8 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
     if (const std::string why = sew(cloth, met, settings, reporter, report); !why.empty())
       return why;
   } catch (const Error& e) { // a pattern too narrow for coarse triangles, a body without bones
-    if (e.kind() != ErrorKind::INPUT) throw;
+    if (e.kind() != ErrorKind::INPUT)
+      throw;
     return e.fact();
   }
   report.phases.emplace_back("sew coarse", seconds_since(began));
@@ -141,14 +151,21 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
 
 std::string refusal_of_levels(const Garment& garment, const body::Body* body,
                               const DrapeSettings& settings) {
-  if (!garment.panels.source) return "the panels do not name their pattern";
-  if (garment.panels.edge_length > MOST_EDGE) return "their mesh is coarse";
-  if (!body || body->skin.triangles.empty()) return "there is no body";
-  if (garment.panels.seams.empty()) return "nothing is sewn";
-  if (!garment.scene.empty()) return "the scene adds effects";
+  if (!garment.panels.source)
+    return "the panels do not name their pattern";
+  if (garment.panels.edge_length > MOST_EDGE)
+    return "their mesh is coarse";
+  if (!body || body->skin.triangles.empty())
+    return "there is no body";
+  if (garment.panels.seams.empty())
+    return "nothing is sewn";
+  if (!garment.scene.empty())
+    return "the scene adds effects";
   for (const pattern::Panel& panel : garment.panels.source->panels)
-    if (!panel.pleats.empty()) return "pleats are folded on their own mesh";
-  if (!garment.rest_scale.empty()) return "rest lengths were edited";
+    if (!panel.pleats.empty())
+      return "pleats are folded on their own mesh";
+  if (!garment.rest_scale.empty())
+    return "rest lengths were edited";
   if (!settings.effects.starts_with("auto") || settings.effects.find("-") != std::string::npos)
     return "effects were chosen by hand";
   if (garment.panels.placed.size() != garment.panels.pattern.size())

@@ -47,7 +47,8 @@ public:
   }
 
   DrapeReport run() {
-    if (!m_from) start();
+    if (!m_from)
+      start();
     DrapeReport report = climb();
     if (!ended(report)) {
       m_at.before = report;
@@ -74,7 +75,8 @@ private:
     m_at.before.levels.meshes = 2;
     const std::string why =
         sew_on_coarse_mesh(m_garment, *m_body, m_at.settings, m_reporter, m_at.before);
-    if (!why.empty()) sew_on_given_mesh(why);
+    if (!why.empty())
+      sew_on_given_mesh(why);
   }
 
   void sew_on_given_mesh(const std::string& why) {
@@ -93,7 +95,8 @@ private:
       DrapeReport report = run_session();
       add_earlier(m_at.before, report);
       report.levels = m_at.before.levels;
-      if (is_last() || !report.converged) return report; // what is not clear now seldom becomes so
+      if (is_last() || !report.converged)
+        return report; // what is not clear now seldom becomes so
       report.wall_s = elapsed();
       m_at.before = std::move(report);
       m_at.rung = rung_after(m_at.rung);
@@ -110,7 +113,8 @@ private:
     request.start.around_body = first;
     request.audit = first || is_last();
     const SessionInputs inputs{.garment = m_garment, .body = m_body, .request = request};
-    if (!m_from) return DrapeSession(inputs, settings_of_rung(), m_reporter).run();
+    if (!m_from)
+      return DrapeSession(inputs, settings_of_rung(), m_reporter).run();
     const DrapeCheckpoint& from = *m_from;
     m_from = nullptr;
     return DrapeSession(inputs, from, m_reporter).run();

@@ -22,7 +22,8 @@ struct Place {
 Vec3 barycentric_of(const std::array<Vec2, 3>& t, const Vec2& p) {
   const Vec2 e = t[1] - t[0], f = t[2] - t[0], d = p - t[0];
   const double area = e.x() * f.y() - e.y() * f.x();
-  if (std::abs(area) < 1e-18) return {1, 0, 0};
+  if (std::abs(area) < 1e-18)
+    return {1, 0, 0};
   const double v = (d.x() * f.y() - d.y() * f.x()) / area,
                w = (e.x() * d.y() - e.y() * d.x()) / area;
   return {1 - v - w, v, w};
@@ -41,7 +42,8 @@ Vec3 limited(const Vec3& weights) {
 
 const pattern::PanelInfo& panel_of_name(const pattern::PanelMesh& mesh, const std::string& name) {
   for (const pattern::PanelInfo& p : mesh.panels)
-    if (p.name == name) return p;
+    if (p.name == name)
+      return p;
   throw input_error("mesh.other-pattern"_id, "", "panel " + name,
                     "is not in the coarser mesh of the same pattern", "mesh the pattern again");
 }
@@ -51,19 +53,19 @@ const pattern::PanelInfo& panel_of_name(const pattern::PanelMesh& mesh, const st
 Place place_in(const pattern::PanelMesh& mesh, const pattern::PanelInfo& panel, const Vec2& p,
                int last) {
   const auto corners = [&](int f) {
-    const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
-    return std::array<Vec2, 3>{mesh.pattern[static_cast<std::size_t>(t[0])],
-                               mesh.pattern[static_cast<std::size_t>(t[1])],
-                               mesh.pattern[static_cast<std::size_t>(t[2])]};
+    const Triangle& t = mesh.triangles[f];
+    return std::array<Vec2, 3>{mesh.pattern[t[0]], mesh.pattern[t[1]], mesh.pattern[t[2]]};
   };
   double least = 1e300;
   Place nearest{panel.first_triangle, {1, 0, 0}};
   for (int k = -1; k < panel.n_triangles; ++k) {
     const int f = k < 0 ? last : panel.first_triangle + k;
-    if (f < 0) continue;
+    if (f < 0)
+      continue;
     const std::array<Vec2, 3> t = corners(f);
     const Vec3 w = barycentric_of(t, p);
-    if (w.minCoeff() >= 0) return {f, w};
+    if (w.minCoeff() >= 0)
+      return {f, w};
     double off = 1e300;
     for (std::size_t side = 0; side < 3; ++side)
       off = std::min(off, distance2_to_edge(p, t[side], t[(side + 1) % 3]));
@@ -81,9 +83,8 @@ std::vector<Place> places_of(const pattern::PanelMesh& from, const pattern::Pane
     const pattern::PanelInfo& same = panel_of_name(from, panel.name);
     int last = -1;
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
-      places[static_cast<std::size_t>(v)] =
-          place_in(from, same, mesh.pattern[static_cast<std::size_t>(v)], last);
-      last = places[static_cast<std::size_t>(v)].triangle;
+      places[v] = place_in(from, same, mesh.pattern[v], last);
+      last = places[v].triangle;
     }
   }
   return places;
@@ -95,10 +96,10 @@ std::vector<Vec3> interpolate(const pattern::PanelMesh& from, const std::vector<
                               const pattern::PanelMesh& mesh) {
   std::vector<Vec3> out;
   for (const Place& place : places_of(from, mesh)) {
-    const Triangle& t = from.triangles[static_cast<std::size_t>(place.triangle)];
+    const Triangle& t = from.triangles[place.triangle];
     Vec3 p = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
-      p += place.weights[k] * at[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+      p += place.weights[k] * at[t[k]];
     out.push_back(p);
   }
   return out;
@@ -107,22 +108,23 @@ std::vector<Vec3> interpolate(const pattern::PanelMesh& from, const std::vector<
 Garment on_finer_mesh(const Garment& coarse, const pattern::PanelMesh& mesh) {
   const std::vector<Triangle> triangles = coarse.particle_triangles();
   std::vector<Vec3> normal(coarse.position.size(), Vec3::Zero());
-  const auto at = [&](int i) -> const Vec3& {
-    return coarse.position[static_cast<std::size_t>(i)];
-  };
+  const auto at = [&](int i) -> const Vec3& { return coarse.position[i]; };
   for (const Triangle& t : triangles) {
     const Vec3 n = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
-    for (int i : t) normal[static_cast<std::size_t>(i)] += n;
+    for (int i : t)
+      normal[i] += n;
   }
-  for (Vec3& n : normal) n.normalize();
+  for (Vec3& n : normal)
+    n.normalize();
   std::vector<Vec3> position;
   for (const Place& place : places_of(coarse.panels, mesh)) {
-    const Triangle& t = triangles[static_cast<std::size_t>(place.triangle)];
+    const Triangle& t = triangles[place.triangle];
     Vec3 flat = Vec3::Zero(), round = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) flat += place.weights[k] * at(t[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 3; ++k)
+      flat += place.weights[k] * at(t[k]);
     for (int k = 0; k < 3; ++k) {
-      const int i = t[static_cast<std::size_t>(k)];
-      const Vec3& n = normal[static_cast<std::size_t>(i)];
+      const int i = t[k];
+      const Vec3& n = normal[i];
       round += place.weights[k] * (flat - n.dot(flat - at(i)) * n);
     }
     position.push_back((1 - ROUND) * flat + ROUND * round);

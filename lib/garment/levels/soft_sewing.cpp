@@ -55,7 +55,8 @@ double mean_weight(const cloth::ClothMesh& mesh) {
 
 /// Of a part such as "leg_l": 1 left, 2 right; 0 of parts other than this limb.
 char side_of(const std::string& part, const std::string& limb) {
-  if (part == limb + "_l") return 1;
+  if (part == limb + "_l")
+    return 1;
   return part == limb + "_r" ? 2 : 0;
 }
 
@@ -66,16 +67,17 @@ std::vector<char> leg_sides(const Garment& garment) {
   for (const pattern::PanelInfo& p : garment.panels.panels) {
     const char now = side_of(p.part, "leg");
     for (int v = p.first_vertex; now && v < p.first_vertex + p.n_vertices; ++v) {
-      const auto i = static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(v)]);
+      const auto i = static_cast<std::size_t>(garment.particle_of[v]);
       joins[i] = static_cast<char>(joins[i] || (side[i] && side[i] != now));
       side[i] = now;
     }
   }
   for (const auto& [a, b] : open_stitches(garment))
-    if (side[static_cast<std::size_t>(a)] != side[static_cast<std::size_t>(b)])
-      joins[static_cast<std::size_t>(a)] = joins[static_cast<std::size_t>(b)] = 1;
+    if (side[a] != side[b])
+      joins[a] = joins[b] = 1;
   for (std::size_t i = 0; i < side.size(); ++i)
-    if (joins[i]) side[i] = 0;
+    if (joins[i])
+      side[i] = 0;
   return side;
 }
 
@@ -85,13 +87,13 @@ std::vector<std::array<int, 2>> sleeve_stitches(const Garment& garment) {
   for (const pattern::PanelInfo& p : garment.panels.panels) {
     const char now = side_of(p.part, "arm");
     for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v)
-      arm[static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(v)])] = now;
+      arm[garment.particle_of[v]] = now;
   }
   std::vector<std::array<int, 2>> stitches;
   for (const std::array<int, 2>& stitch : open_stitches(garment)) {
-    const char a = arm[static_cast<std::size_t>(stitch[0])],
-               b = arm[static_cast<std::size_t>(stitch[1])];
-    if (a != 0 && a == b) stitches.push_back(stitch);
+    const char a = arm[stitch[0]], b = arm[stitch[1]];
+    if (a != 0 && a == b)
+      stitches.push_back(stitch);
   }
   return stitches;
 }
@@ -129,7 +131,8 @@ public:
   /// @return false where it is not finite: the garment is as it came
   bool step() {
     m_last = m_solver.step(m_options);
-    if (m_last.finite) return true;
+    if (m_last.finite)
+      return true;
     m_garment.position = m_start;
     return false;
   }
@@ -140,10 +143,13 @@ private:
     const std::vector<char> side = leg_sides(m_garment);
     std::vector<int> left, right;
     for (std::size_t i = 0; i < side.size(); ++i) {
-      if (side[i] == 1) left.push_back(static_cast<int>(i));
-      if (side[i] == 2) right.push_back(static_cast<int>(i));
+      if (side[i] == 1)
+        left.push_back(static_cast<int>(i));
+      if (side[i] == 2)
+        right.push_back(static_cast<int>(i));
     }
-    if (left.empty() || right.empty()) return;
+    if (left.empty() || right.empty())
+      return;
     const Vec3 to_left = Vec3::UnitX(), offset = SIDE_GAP * to_left;
     m_solver.emplace<cloth::HalfSpaceEffect>(std::move(left), offset, to_left, SIDE_STIFFNESS);
     m_solver.emplace<cloth::HalfSpaceEffect>(std::move(right), -offset, -to_left, SIDE_STIFFNESS);
@@ -164,7 +170,8 @@ private:
 
 SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter) {
   unsew(garment);
-  if (body.collider()) body.draw_in(DRAWN_IN);
+  if (body.collider())
+    body.draw_in(DRAWN_IN);
   SoftCloth cloth(garment, body, SEWING_REACH, SEWING_STIFFNESS, SEWING_CREEP, SEWING_TOLERANCE);
   auto& stitches =
       cloth.solver().emplace<cloth::SewingSpringEffect>(open_stitches(garment), 1.0, STITCH_REACH);
@@ -186,10 +193,12 @@ SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter)
       body.draw_in(scale);
     }
     result.finite = cloth.step();
-    if (!result.finite) break;
+    if (!result.finite)
+      break;
     ++result.steps;
   }
-  if (body.collider() && body.state().scale < 1) body.draw_in(1);
+  if (body.collider() && body.state().scale < 1)
+    body.draw_in(1);
   result.widest_gap_m = stitches.widest(garment.position).length;
   const std::vector<Vec3> sewn = garment.position;
   weld(garment, sewn);
@@ -206,7 +215,8 @@ SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxi
     if (cloth.contact())
       cloth.contact()->set_reach(how.reach_m + (how.last_reach_m - how.reach_m) *
                                                    share_of_way(k, 0, how.steps - 1));
-    if (!cloth.step()) return {.finite = false};
+    if (!cloth.step())
+      return {.finite = false};
   }
   return {.residual_force_ratio = cloth.last().residual_force_ratio};
 }

@@ -31,13 +31,16 @@ RedrapeSet redrape(const Garment& start, const body::Body* body, const DrapeSett
     jitter_start(garment.particle_of.empty() ? garment.panels.placed : garment.position,
                  request.jitter, request.seed, static_cast<int>(k));
     body::Body own;
-    if (body) own = *body;
-    if (k > 0) own.skin_cache = nullptr; // a cache is for one thread
+    if (body)
+      own = *body;
+    if (k > 0)
+      own.skin_cache = nullptr; // a cache is for one thread
     StopOnly quiet(reporter);
     Reporter& speaks = k == 0 ? reporter : quiet;
     set.reports[k] = drape(garment, body ? &own : nullptr, settings, speaks);
     garment.panels.placed = start.panels.placed;
-    if (body) bind_garment(garment, *body);
+    if (body)
+      bind_garment(garment, *body);
   });
   return set;
 }

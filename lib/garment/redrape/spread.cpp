@@ -43,7 +43,8 @@ std::vector<int> lowest_free_edge(const std::vector<Triangle>& triangles,
   double lowest = 1e300;
   std::map<int, bool> seen;
   for (const auto& [start, unused] : next) {
-    if (seen[start]) continue;
+    if (seen[start])
+      continue;
     std::vector<int> loop{start};
     seen[start] = true;
     for (bool goes_on = true; goes_on;) {
@@ -56,7 +57,8 @@ std::vector<int> lowest_free_edge(const std::vector<Triangle>& triangles,
         }
     }
     double height = 0;
-    for (int p : loop) height += position[p].y() / static_cast<double>(loop.size());
+    for (int p : loop)
+      height += position[p].y() / static_cast<double>(loop.size());
     if (loop.size() >= 3 && height < lowest) {
       lowest = height;
       best = std::move(loop);
@@ -87,10 +89,12 @@ Measured measure(const Garment& garment, const std::vector<double>& heights) {
   Measured out;
   std::vector<Weighted> values;
   for (const TriangleStrain& s : triangle_strains(garment, garment.position))
-    if (s.area > 0) values.push_back({std::abs(s.thread()), s.area});
+    if (s.area > 0)
+      values.push_back({std::abs(s.thread()), s.area});
   out.strain_p50 = area_quantile(values, 0.5);
   out.strain_p99 = area_quantile(values, 0.99);
-  for (double height : heights) out.cuts.push_back(cut_length(garment, height));
+  for (double height : heights)
+    out.cuts.push_back(cut_length(garment, height));
   return out;
 }
 
@@ -102,7 +106,8 @@ std::map<std::string, std::map<std::string, SpreadFigure>> figures_of(const Samp
   std::map<std::string, std::map<std::string, SpreadFigure>> out;
   for (const auto& [row, figures] : samples)
     for (const auto& [name, values] : figures)
-      if (values.size() == n) out[row][name] = spread_figure(values);
+      if (values.size() == n)
+        out[row][name] = spread_figure(values);
   return out;
 }
 
@@ -111,9 +116,11 @@ std::vector<double> spread_of_places(const std::vector<const Garment*>& drapes) 
   std::vector<double> out;
   for (std::size_t i = 0; i < drapes[0]->position.size(); ++i) {
     Vec3 mean = Vec3::Zero();
-    for (const Garment* g : drapes) mean += g->position[i] / n;
+    for (const Garment* g : drapes)
+      mean += g->position[i] / n;
     double sum = 0;
-    for (const Garment* g : drapes) sum += (g->position[i] - mean).squaredNorm();
+    for (const Garment* g : drapes)
+      sum += (g->position[i] - mean).squaredNorm();
     out.push_back(std::sqrt(sum / (n - 1)));
   }
   return out;
@@ -121,19 +128,24 @@ std::vector<double> spread_of_places(const std::vector<const Garment*>& drapes) 
 
 double flat_area(const Garment& garment) {
   double sum = 0;
-  for (const TriangleStrain& s : triangle_strains(garment, garment.position)) sum += s.area;
+  for (const TriangleStrain& s : triangle_strains(garment, garment.position))
+    sum += s.area;
   return sum;
 }
 
 } // namespace
 
-double SpreadFigure::error() const { return n > 0 ? sd / std::sqrt(static_cast<double>(n)) : 0; }
+double SpreadFigure::error() const {
+  return n > 0 ? sd / std::sqrt(static_cast<double>(n)) : 0;
+}
 
 SpreadFigure spread_figure(const std::vector<double>& values) {
   SpreadFigure out;
   out.n = static_cast<int>(values.size());
-  for (double v : values) out.mean += v / static_cast<double>(values.size());
-  for (double v : values) out.sd += (v - out.mean) * (v - out.mean);
+  for (double v : values)
+    out.mean += v / static_cast<double>(values.size());
+  for (double v : values)
+    out.sd += (v - out.mean) * (v - out.mean);
   out.sd = out.n > 1 ? std::sqrt(out.sd / (out.n - 1)) : 0;
   return out;
 }
@@ -176,7 +188,8 @@ Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
     p50.push_back(measured.back().strain_p50);
     p99.push_back(measured.back().strain_p99);
     std::vector<Vec3> rim;
-    for (int p : lowest_free_edge(triangles, g->position)) rim.push_back(g->position[p]);
+    for (int p : lowest_free_edge(triangles, g->position))
+      rim.push_back(g->position[p]);
     folds.push_back(count_folds(rim));
     shadow.push_back(shadow_area(triangles, g->position, SHADOW_CELL));
     percent.push_back(flat > 0 ? 100 * shadow.back() / flat : 0);
@@ -201,21 +214,25 @@ Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
       pairs["strain_p99"].push_back(std::abs(p99[a] - p99[b]));
       pairs["girth_cm"].push_back(100 * cut);
     }
-  for (const auto& [name, values] : pairs) out.pairs[name] = spread_figure(values);
+  for (const auto& [name, values] : pairs)
+    out.pairs[name] = spread_figure(values);
   std::size_t medoid = 0;
   double least = 1e300;
   for (std::size_t a = 0; a < drapes.size(); ++a) {
     double sum = 0;
-    for (double r : rms[a]) sum += r * r;
+    for (double r : rms[a])
+      sum += r * r;
     if (sum < least) {
       least = sum;
       medoid = a;
     }
   }
   out.medoid = static_cast<int>(number[medoid]);
-  for (std::size_t a = 0; a < drapes.size(); ++a) out.to_medoid_m[number[a]] = rms[medoid][a];
+  for (std::size_t a = 0; a < drapes.size(); ++a)
+    out.to_medoid_m[number[a]] = rms[medoid][a];
   out.particles_m = spread_of_places(drapes);
-  if (!body || drapes[0]->bind.empty()) return out;
+  if (!body || drapes[0]->bind.empty())
+    return out;
 
   const collision::BodyCollider skin = collision::make_collider(body->skin, body->skin_cache.get());
   Samples rows, hems;
@@ -240,7 +257,8 @@ Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
 
 void keep_spread(const Spread& spread, Garment& garment) {
   garment.redrapes = {};
-  if (spread.at_rest < 2) return;
+  if (spread.at_rest < 2)
+    return;
   garment.redrapes.count = spread.at_rest;
   garment.redrapes.spread_m = spread.particles_m;
   for (const auto& [row, figures] : spread.girths)
@@ -257,7 +275,8 @@ io::Json spread_json(const Spread& spread, const RedrapeRequest& request, const 
   const auto table = [&](const auto& rows) {
     io::Json out = io::Json::object();
     for (const auto& [row, figures] : rows)
-      for (const auto& [name, f] : figures) out[row][name] = figure(f);
+      for (const auto& [name, f] : figures)
+        out[row][name] = figure(f);
     return out;
   };
   io::Json document = io::new_document("spread", 1, tool);
@@ -272,7 +291,8 @@ io::Json spread_json(const Spread& spread, const RedrapeRequest& request, const 
   for (double d : spread.to_medoid_m)
     document["to_medoid_mm"].push_back(d < 0 ? io::Json() : io::Json(1000 * d));
   document["pairs"] = io::Json::object();
-  for (const auto& [name, f] : spread.pairs) document["pairs"][name] = figure(f);
+  for (const auto& [name, f] : spread.pairs)
+    document["pairs"][name] = figure(f);
   document["strain_p50"] = figure(spread.strain_p50);
   document["strain_p99"] = figure(spread.strain_p99);
   document["folds"] = figure(spread.folds);

@@ -37,7 +37,8 @@ void set_jitter(StartJitter& jitter, const std::string& assignment) {
   const auto equals = assignment.find('=');
   const std::string name = assignment.substr(0, equals), place = "--jitter " + assignment;
   for (const Bound& b : BOUNDS) {
-    if (name != b.name || equals == std::string::npos) continue;
+    if (name != b.name || equals == std::string::npos)
+      continue;
     double value = 0;
     const char* end = assignment.data() + assignment.size();
     const auto read = std::from_chars(assignment.data() + equals + 1, end, value);
@@ -55,13 +56,16 @@ void set_jitter(StartJitter& jitter, const std::string& assignment) {
 
 void jitter_start(std::vector<Vec3>& position, const StartJitter& jitter, std::uint64_t seed,
                   int index) {
-  if (index == 0 || position.empty()) return;
+  if (index == 0 || position.empty())
+    return;
   Random random(seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(index));
   Vec3 middle = Vec3::Zero(), offset;
-  for (const Vec3& p : position) middle += p / static_cast<double>(position.size());
+  for (const Vec3& p : position)
+    middle += p / static_cast<double>(position.size());
   const double turn = random.uniform(-jitter.turn_rad, jitter.turn_rad), c = std::cos(turn),
                s = std::sin(turn);
-  for (int k = 0; k < 3; ++k) offset[k] = random.uniform(-jitter.offset_m, jitter.offset_m);
+  for (int k = 0; k < 3; ++k)
+    offset[k] = random.uniform(-jitter.offset_m, jitter.offset_m);
   std::vector<Wave> waves;
   for (int w = 0; w < N_WAVES; ++w) {
     Wave wave;
@@ -75,7 +79,8 @@ void jitter_start(std::vector<Vec3>& position, const StartJitter& jitter, std::u
   for (Vec3& p : position) {
     const Vec3 d = p - middle;
     p = middle + offset + Vec3(c * d.x() + s * d.z(), d.y(), c * d.z() - s * d.x());
-    for (const Wave& w : waves) p += amplitude * std::sin(w.number.dot(d) + w.phase) * w.along;
+    for (const Wave& w : waves)
+      p += amplitude * std::sin(w.number.dot(d) + w.phase) * w.along;
   }
 }
 

@@ -14,7 +14,8 @@ constexpr double SAME_ID =
 /// Whether an outline of the mesh has the points of a drawn one: as many, at the same stable ids.
 bool is_meshed_from(const Garment& garment, const pattern::PanelInfo& panel,
                     const std::vector<Vec2>& drawn) {
-  if (panel.outline.size() != drawn.size()) return false;
+  if (panel.outline.size() != drawn.size())
+    return false;
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const Vec2& p : drawn) {
     low = low.cwiseMin(p);
@@ -23,7 +24,8 @@ bool is_meshed_from(const Garment& garment, const pattern::PanelInfo& panel,
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const pattern::StableId& id = garment.panels.ids[panel.outline[i]];
     const Vec2 at = (drawn[i] - low).cwiseQuotient(high - low);
-    if (!((at - Vec2(id.s, id.t)).cwiseAbs().maxCoeff() < SAME_ID)) return false;
+    if (!((at - Vec2(id.s, id.t)).cwiseAbs().maxCoeff() < SAME_ID))
+      return false;
   }
   return true;
 }
@@ -37,7 +39,8 @@ std::vector<int> drawn_edges(const pattern::Panel& cut, const pattern::Panel& dr
     edges.push_back(static_cast<int>(at));
     const bool ends =
         (piece.path.back().p[3] - drawn.loops[0][at].path.back().p[3]).norm() < SAME_POINT;
-    if (ends && at + 1 < drawn.loops[0].size()) ++at;
+    if (ends && at + 1 < drawn.loops[0].size())
+      ++at;
   }
   return edges;
 }
@@ -63,8 +66,7 @@ std::optional<DrawnPattern> drawn_pattern(const Garment& garment) {
     result.outlines.push_back(drawn);
     result.edge_of.emplace_back();
     for (std::size_t i = 0; i < drawn.size(); ++i)
-      result.edge_of.back().push_back(
-          edges[static_cast<std::size_t>(boundary.panels[k].edge_of[i])]);
+      result.edge_of.back().push_back(edges[boundary.panels[k].edge_of[i]]);
   }
   return result;
 }

@@ -23,7 +23,8 @@ struct KnownGirth {
 std::map<std::string, KnownGirth> girths_known(const body::Body& body) {
   std::map<std::string, KnownGirth> known;
   for (const auto& [name, girth] : body.girths)
-    if (girth.value_m > 0) known[name] = {girth.value_m, std::max(girth.spread_m, LEAST_SPREAD_M)};
+    if (girth.value_m > 0)
+      known[name] = {girth.value_m, std::max(girth.spread_m, LEAST_SPREAD_M)};
   for (const auto& [name, level] : body.levels)
     if (level.girth_m > 0)
       known["level:" + name] = {level.girth_m, std::max(level.girth_spread_m, LEAST_SPREAD_M)};
@@ -82,7 +83,8 @@ SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& 
     double sum = 0;
     for (const auto& [name, girth] : known) {
       const auto own = c.girths.find(name);
-      if (own == c.girths.end()) continue;
+      if (own == c.girths.end())
+        continue;
       const double share = (own->second - girth.value_m) / girth.value_m;
       sum += share * share;
       ++c.rank.girths;
@@ -97,14 +99,17 @@ SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& 
       candidates.begin(), candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.rank.distance < b.rank.distance; });
   SizeRanking ranking;
-  for (const Candidate& c : candidates) ranking.sizes.push_back(c.rank);
-  if (candidates.size() < 2) return ranking;
+  for (const Candidate& c : candidates)
+    ranking.sizes.push_back(c.rank);
+  if (candidates.size() < 2)
+    return ranking;
   // d2^2 - d1^2 is linear in the girths g of the body, up to the g^2 below: its change with g is
   // 2 (a1 - a2) / g^2 each.
   double lead = 0, variance = 0;
   for (const auto& [name, g] : known) {
     const auto first = candidates[0].girths.find(name), second = candidates[1].girths.find(name);
-    if (first == candidates[0].girths.end() || second == candidates[1].girths.end()) continue;
+    if (first == candidates[0].girths.end() || second == candidates[1].girths.end())
+      continue;
     const double a = first->second, b = second->second, square = g.value_m * g.value_m;
     lead += ((b - g.value_m) * (b - g.value_m) - (a - g.value_m) * (a - g.value_m)) / square;
     variance += std::pow(2 * (a - b) / square * g.spread_m, 2);
@@ -121,7 +126,8 @@ std::string ranking_text(const SizeRanking& ranking) {
                      one(ranking.sizes.front()) + " is nearest";
   if (ranking.sizes.size() > 1)
     text += ", with a probability of " + whole_percent(ranking.sureness) + "; then";
-  for (std::size_t i = 1; i < ranking.sizes.size(); ++i) text += " " + one(ranking.sizes[i]);
+  for (std::size_t i = 1; i < ranking.sizes.size(); ++i)
+    text += " " + one(ranking.sizes[i]);
   return text;
 }
 

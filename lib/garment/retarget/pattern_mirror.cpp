@@ -84,7 +84,8 @@ PanelMirror reflection(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
     center_b += b[i] / SAMPLES;
   }
   Eigen::Matrix2d m = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < a.size(); ++i) m += (b[i] - center_b) * (a[i] - center_a).transpose();
+  for (std::size_t i = 0; i < a.size(); ++i)
+    m += (b[i] - center_b) * (a[i] - center_a).transpose();
   const double angle = std::atan2(m(0, 1) + m(1, 0), m(0, 0) - m(1, 1)), c = std::cos(angle),
                s = std::sin(angle);
   PanelMirror mirror;
@@ -110,7 +111,7 @@ bool grain_agrees(const pattern::PanelInfo& from, const pattern::PanelInfo& to,
 
 std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels,
                                        const std::vector<Vec3>& position) {
-  const int n = static_cast<int>(panels.panels.size());
+  const int n = std::ssize(panels.panels);
   std::vector<WornOutline> outlines;
   for (const pattern::PanelInfo& info : panels.panels)
     outlines.push_back(outline_of(panels, info, position));
@@ -121,7 +122,8 @@ std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels,
   };
   std::vector<Pair> pairs;
   for (int p = 0; p < n; ++p) {
-    if (outlines[p].n() < 3) continue;
+    if (outlines[p].n() < 3)
+      continue;
     const Ring ring = outlines[p].walk(outlines[p].corner, 1);
     for (int q = p; q < n; ++q) {
       if (outlines[q].n() < 3 ||
@@ -145,16 +147,19 @@ std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels,
           best.mirror.partner = q;
         }
       }
-      if (best.mirror.partner >= 0) pairs.push_back(best);
+      if (best.mirror.partner >= 0)
+        pairs.push_back(best);
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return a.apart < b.apart; });
   std::vector<PanelMirror> mirrors(n);
   for (const Pair& pair : pairs) {
-    if (mirrors[pair.p].partner >= 0 || mirrors[pair.q].partner >= 0) continue;
+    if (mirrors[pair.p].partner >= 0 || mirrors[pair.q].partner >= 0)
+      continue;
     mirrors[pair.p] = pair.mirror;
-    if (pair.p == pair.q) continue;
+    if (pair.p == pair.q)
+      continue;
     PanelMirror back = pair.mirror; // a reflection's inverse has its transpose
     back.partner = pair.p;
     back.linear = pair.mirror.linear.transpose();

@@ -52,7 +52,8 @@ PlacementState state_of(const std::vector<Vec3>& x, const std::vector<Triangle>&
   PlacementState state;
   for (const Vec3& p : x) {
     const double d = body.signed_distance(p, SEARCH_DEPTH).distance;
-    if (d >= 0) continue;
+    if (d >= 0)
+      continue;
     ++state.vertices_inside;
     state.deepest_m = std::max(state.deepest_m, -d);
   }
@@ -111,7 +112,8 @@ Pushes pushes_of(const std::vector<Vec3>& x, const std::vector<Triangle>& triang
   Pushes pushes(x.size(), gap);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const collision::SignedDistance d = body.signed_distance(x[i], SEARCH_DEPTH, hint[i]);
-    if (d.triangle >= 0) hint[i] = d.triangle;
+    if (d.triangle >= 0)
+      hint[i] = d.triangle;
     // What lies just outside the gap is held too, or it would fall in while its neighbours are
     // pushed.
     if (d.distance < 1.5 * gap)
@@ -119,7 +121,8 @@ Pushes pushes_of(const std::vector<Vec3>& x, const std::vector<Triangle>& triang
   }
   for (const collision::FaceContact& c :
        body.face_contacts(x, triangles, topology, std::max(gap, 0.01))) {
-    if (c.distance >= gap) continue;
+    if (c.distance >= gap)
+      continue;
     const double share = c.barycentric.squaredNorm();
     for (int k = 0; k < 3; ++k)
       if (c.barycentric[k] > 0)
@@ -179,8 +182,10 @@ void grade(Retargeted& result, const Garment& source, const std::vector<Vec3>& a
 } // namespace
 
 RetargetMode retarget_mode_from_name(const std::string& name) {
-  if (name == "keep-fabric") return RetargetMode::KEEP_FABRIC;
-  if (name == "keep-fit") return RetargetMode::KEEP_FIT;
+  if (name == "keep-fabric")
+    return RetargetMode::KEEP_FABRIC;
+  if (name == "keep-fit")
+    return RetargetMode::KEEP_FIT;
   throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--mode",
               "\"" + name + "\" is not a mode", "use keep-fabric or keep-fit");
 }
@@ -207,7 +212,8 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape,
   const Rotations rotations(shape, ops);
   const double push_stiffness = CONTACT_STIFFNESS / (CONTACT_LENGTH * CONTACT_LENGTH);
   std::vector<double> attraction(n, 1 / (ATTRACTION_LENGTH * ATTRACTION_LENGTH));
-  for (int i : held) attraction[i] = push_stiffness;
+  for (int i : held)
+    attraction[i] = push_stiffness;
   Eigen::SparseMatrix<double> free_system = ops.stiffness;
   for (std::size_t i = 0; i < n; ++i)
     free_system.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) +=
@@ -236,7 +242,8 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape,
     const Field wanted = free_solver.solve(right);
     Eigen::SparseMatrix<double> system = free_system;
     for (std::size_t i = 0; i < n; ++i) {
-      if (!pushes.active(i)) continue;
+      if (!pushes.active(i))
+        continue;
       const auto row = static_cast<Eigen::Index>(i);
       system.coeffRef(row, row) += push_stiffness * ops.mass[row];
       right.row(row) += (push_stiffness * ops.mass[row] *
@@ -261,7 +268,8 @@ std::vector<Vec3> as_near_as_placed(std::vector<Vec3> settled, const std::vector
   const double least = PRESSED_SHARE * gap;
   for (std::size_t i = 0; i < settled.size(); ++i) {
     const double lay = skin.signed_distance(placed[i], SEARCH_DEPTH).distance;
-    if (lay >= gap) continue;
+    if (lay >= gap)
+      continue;
     const collision::SignedDistance now = skin.signed_distance(settled[i], SEARCH_DEPTH);
     settled[i] -= std::clamp(now.distance - std::max(lay, least), 0.0, gap - least) * now.normal;
   }
@@ -278,12 +286,16 @@ std::string why_impossible(const Garment& garment, const body::Body& body) {
     double there = 0;
     const BindWeight* most = nullptr;
     for (const BindWeight& w : weights) {
-      if (frames.index(garment.bind.frames[w.frame]) >= 0) there += w.weight;
-      if (!most || w.weight > most->weight) most = &w;
+      if (frames.index(garment.bind.frames[w.frame]) >= 0)
+        there += w.weight;
+      if (!most || w.weight > most->weight)
+        most = &w;
     }
-    if (there < 0.5 && most) ++missing[garment.bind.frames[most->frame]];
+    if (there < 0.5 && most)
+      ++missing[garment.bind.frames[most->frame]];
   }
-  if (missing.empty()) return {};
+  if (missing.empty())
+    return {};
   const auto most =
       std::max_element(missing.begin(), missing.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -331,7 +343,8 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
     for (const auto& [a, b] : edges_of(triangles))
       if (const double before = (garment.position[a] - garment.position[b]).norm(); before > 0)
         stretch.push_back((g.position[a] - g.position[b]).norm() / before - 1);
-    if (stretch.empty()) return;
+    if (stretch.empty())
+      return;
     p01 = lower_quantile(stretch, 0.01);
     p50 = lower_quantile(stretch, 0.5);
     p99 = lower_quantile(stretch, 0.99);
@@ -352,7 +365,8 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
     reporter.info(
         "a sleeve is longer than the arm and narrower than the hand: its end stays at the wrist");
   }
-  if (keep_fit) grade(result, garment, as_near_as_placed(g.position, placed, skin, g.offset_m), to);
+  if (keep_fit)
+    grade(result, garment, as_near_as_placed(g.position, placed, skin, g.offset_m), to);
   for (std::size_t i = 0; i < placed.size(); ++i)
     report.largest_move_m = std::max(report.largest_move_m, (g.position[i] - placed[i]).norm());
   measure(report.settled_p01, report.settled_p50, report.settled_p99);

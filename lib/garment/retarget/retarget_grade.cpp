@@ -79,7 +79,8 @@ FlatTriangle flat_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   FlatTriangle result;
   const Mat2 d = sides(Vec2(a.head<2>()), Vec2(b.head<2>()), Vec2(c.head<2>()));
   const double area = 0.5 * std::abs(d.determinant());
-  if (area < 1e-12) return result;
+  if (area < 1e-12)
+    return result;
   const Mat2 inverse = d.inverse(); // rows: gradients of the 2nd and 3rd hat function
   result.area = area;
   result.gradient = {-(inverse.row(0) + inverse.row(1)).transpose(), inverse.row(0).transpose(),
@@ -139,7 +140,8 @@ PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& pa
     const Triangle &local = layout.triangles[f],
                    &t = garment.panels.triangles[panel.first_triangle + f];
     const FlatTriangle& shape = layout.shapes[f];
-    if (shape.area <= 0) continue;
+    if (shape.area <= 0)
+      continue;
     Mat32 then = Mat32::Zero(),
           now = Mat32::Zero(); // columns: where a unit of weft, a unit of warp lay and lies
     for (int k = 0; k < 3; ++k) {
@@ -154,7 +156,8 @@ PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& pa
       value += widen_strained_pieces[panel.first_triangle + f].transpose();
     for (const int i : local) {
       right.row(i) += shape.area / 3 * value;
-      for (const int j : local) means.emplace_back(i, j, shape.area / 9);
+      for (const int j : local)
+        means.emplace_back(i, j, shape.area / 9);
     }
   }
   layout.log_stretch.resize(n, 2);
@@ -162,7 +165,8 @@ PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& pa
     std::vector<Eigen::Triplet<double>> entries = means;
     add_gradients(layout, axis, ALONG_THREAD * ALONG_THREAD, ACROSS_THREADS * ACROSS_THREADS,
                   entries);
-    for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 1e-12); // for vertices of no triangle
+    for (int i = 0; i < n; ++i)
+      entries.emplace_back(i, i, 1e-12); // for vertices of no triangle
     const SparseSolver smoother(matrix_of(entries, n));
     layout.log_stretch.col(axis) = smoother.solve(Eigen::VectorXd(right.col(axis)));
   }
@@ -172,7 +176,8 @@ PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& pa
 /// What weft and warp of a triangle are to be stretched by.
 Vec2 stretch_of(const PanelLayout& layout, const Triangle& t) {
   Vec2 log = Vec2::Zero();
-  for (const int v : t) log += layout.log_stretch.row(v).transpose() / 3;
+  for (const int v : t)
+    log += layout.log_stretch.row(v).transpose() / 3;
   return log.array().exp();
 }
 
@@ -182,7 +187,8 @@ void start_layout(PanelLayout& layout) {
   const int n = layout.panel->n_vertices;
   const auto hold = [&](std::vector<Eigen::Triplet<double>>&
                             entries) { // fixes the free translation, moves nothing
-    for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 1e-12);
+    for (int i = 0; i < n; ++i)
+      entries.emplace_back(i, i, 1e-12);
   };
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(n, 2);
   for (std::size_t f = 0; f < layout.triangles.size(); ++f)
@@ -215,7 +221,8 @@ double lay_out(PanelLayout& layout) {
   for (std::size_t f = 0; f < layout.triangles.size(); ++f) {
     const Triangle& t = layout.triangles[f];
     const FlatTriangle& flat = layout.shapes[f];
-    if (flat.area <= 0) continue;
+    if (flat.area <= 0)
+      continue;
     Mat2 jacobian = Mat2::Zero(); // columns: where a unit of weft, a unit of warp now goes
     for (int i = 0; i < 3; ++i)
       jacobian += layout.solved.row(t[i]).transpose() * flat.gradient[i].transpose();
@@ -258,7 +265,8 @@ std::vector<SeamEdge> seam_edges(const Garment& garment, const std::vector<int>&
   for (const pattern::MeshSeam& seam : garment.panels.seams)
     for (std::size_t i = 0; i + 1 < seam.a.size() && i + 1 < seam.b.size(); ++i) {
       SeamEdge e{side(seam.a[i], seam.a[i + 1]), side(seam.b[i], seam.b[i + 1]), false};
-      if (e.a.layout < 0 || e.b.layout < 0) continue; // from one panel over to the next
+      if (e.a.layout < 0 || e.b.layout < 0)
+        continue; // from one panel over to the next
       e.keeps_direction = mirrors[e.a.layout].partner == e.b.layout && e.a.layout != e.b.layout &&
                           is_straight(garment, seam.a) && is_straight(garment, seam.b);
       if (layouts[e.a.layout].length_before(e.a.from, e.a.to) > 1e-6 &&
@@ -280,7 +288,8 @@ void lay_out_together(std::vector<PanelLayout>& layouts, std::vector<SeamEdge>& 
   for (PanelLayout& layout : layouts)
     layout.solver.compute(matrix_of(layout.entries, layout.panel->n_vertices));
   for (int round = 0; round < LAYOUT_ROUNDS; ++round) {
-    for (PanelLayout& layout : layouts) layout.seams.setZero();
+    for (PanelLayout& layout : layouts)
+      layout.seams.setZero();
     double apart = 0, largest_move = 0;
     for (SeamEdge& e : edges) {
       const double a = layouts[e.a.layout].length_before(e.a.from, e.a.to),
@@ -311,8 +320,10 @@ void lay_out_together(std::vector<PanelLayout>& layouts, std::vector<SeamEdge>& 
       pull(e.a, to_a, a);
       pull(e.b, to_b, b);
     }
-    for (PanelLayout& layout : layouts) largest_move = std::max(largest_move, lay_out(layout));
-    if (apart < SEAM_EDGE && largest_move < LAYOUT_MOVE) return;
+    for (PanelLayout& layout : layouts)
+      largest_move = std::max(largest_move, lay_out(layout));
+    if (apart < SEAM_EDGE && largest_move < LAYOUT_MOVE)
+      return;
   }
 }
 
@@ -320,7 +331,8 @@ void lay_out_together(std::vector<PanelLayout>& layouts, std::vector<SeamEdge>& 
 std::vector<PanelMirror> mirrors_of(const Garment& garment, const std::vector<PanelLayout>& layouts,
                                     const std::vector<Vec3>& before, const GradeSides& sides) {
   std::vector<Vec3> position;
-  for (const int p : garment.particle_of) position.push_back(before[p]);
+  for (const int p : garment.particle_of)
+    position.push_back(before[p]);
   const std::vector<PanelMirror> by_panel = panel_mirrors(garment.panels, position);
   std::map<int, int> layout_of_panel;
   const auto index = [&](const PanelLayout& layout) {
@@ -351,7 +363,8 @@ averaged(const Garment& garment, const std::vector<PanelLayout>& layouts,
   std::vector<Eigen::MatrixX2d> result;
   for (std::size_t k = 0; k < layouts.size(); ++k) {
     result.push_back(own(layouts[k]));
-    if (mirrors[k].partner < 0) continue;
+    if (mirrors[k].partner < 0)
+      continue;
     const PanelLayout& partner = layouts[mirrors[k].partner];
     Eigen::MatrixX2d seen = seen_from_mirror(garment.panels, *partner.panel, *layouts[k].panel,
                                              mirrors[k], own(partner));
@@ -368,10 +381,12 @@ void measure_seams(Garment& garment, const std::vector<std::array<double, 2>>& b
     pattern::MeshSeam& seam = garment.panels.seams[s];
     seam.length_a = run_length(garment, seam.a);
     seam.length_b = run_length(garment, seam.b);
-    if (!(before[s][0] > 0 && before[s][1] > 0)) continue;
+    if (!(before[s][0] > 0 && before[s][1] > 0))
+      continue;
     const double apart = std::abs(seam.length_a - seam.length_b * before[s][0] / before[s][1]);
     report.largest_seam_change_m = std::max(report.largest_seam_change_m, apart);
-    if (apart <= SEAM_FINDING) continue;
+    if (apart <= SEAM_FINDING)
+      continue;
     char length[32];
     std::snprintf(length, sizeof length, "%.1f", 1000 * apart);
     report.findings.push_back({"retarget.seam-fits-worse"_id, "the sides of seam \"" + seam.name +
@@ -389,7 +404,8 @@ std::string limb_of(const Garment& garment, const pattern::PanelInfo& panel) {
     for (const BindWeight& w : garment.bind.particles[garment.particle_of[v]]) {
       const std::string& frame = garment.bind.frames[w.frame];
       std::string part = frame.rfind("leg_", 0) == 0 ? "leg" : "torso";
-      if (frame.find("arm_") != std::string::npos) part = "arm";
+      if (frame.find("arm_") != std::string::npos)
+        part = "arm";
       share[part] += w.weight;
     }
   const auto most = std::max_element(
@@ -404,17 +420,20 @@ GradeReport regrade(Garment& garment, const std::vector<Vec3>& before,
   std::vector<PanelLayout> layouts;
   std::vector<int> layout_of_vertex(garment.panels.pattern.size(), -1);
   for (const pattern::PanelInfo& panel : garment.panels.panels) {
-    if (panel.n_vertices == 0 || panel.n_triangles == 0) continue;
+    if (panel.n_vertices == 0 || panel.n_triangles == 0)
+      continue;
     for (int i = 0; i < panel.n_vertices; ++i)
       layout_of_vertex[panel.first_vertex + i] = static_cast<int>(layouts.size());
     layouts.push_back(stretched_panel(garment, panel, before, after, widen_strained_pieces));
   }
   const std::vector<PanelMirror> mirrors = mirrors_of(garment, layouts, before, sides);
-  for (const PanelMirror& mirror : mirrors) report.mirrored_panels += mirror.partner >= 0;
+  for (const PanelMirror& mirror : mirrors)
+    report.mirrored_panels += mirror.partner >= 0;
   const std::vector<Eigen::MatrixX2d> stretch = averaged(
       garment, layouts, mirrors, [](const PanelLayout& layout) { return layout.log_stretch; },
       [](const PanelMirror& mirror, Eigen::MatrixX2d& seen) {
-        if (mirror.grain_across) seen.col(0).swap(seen.col(1));
+        if (mirror.grain_across)
+          seen.col(0).swap(seen.col(1));
       });
   for (std::size_t k = 0; k < layouts.size(); ++k) {
     layouts[k].log_stretch = stretch[k];

@@ -24,8 +24,10 @@ struct EdgedOutline {
   /// +1 or -1 where b follows a on the outline, else 0.
   int step(int a, int b) const {
     const auto at = position.find(a), to = position.find(b);
-    if (at == position.end() || to == position.end()) return 0;
-    if (next(at->second, 1) == to->second) return 1;
+    if (at == position.end() || to == position.end())
+      return 0;
+    if (next(at->second, 1) == to->second)
+      return 1;
     return next(at->second, -1) == to->second ? -1 : 0;
   }
 };
@@ -49,16 +51,19 @@ std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<Edge
                                   const std::vector<int>& run) {
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i + 1 < run.size(); ++i) {
-    if (run[i] == run[i + 1]) continue;
+    if (run[i] == run[i + 1])
+      continue;
     const int panel = panel_at(garment, run[i]);
     if (panel != panel_at(garment, run[i + 1]))
       continue; // over to the next panel: the particle is the same
     const int step = outlines[panel].step(run[i], run[i + 1]);
-    if (step == 0) return {};
+    if (step == 0)
+      return {};
     if (!stretches.empty() && stretches.back().panel == panel && stretches.back().last == run[i] &&
         stretches.back().step == step)
       stretches.back().last = run[i + 1];
-    else stretches.push_back({panel, run[i], run[i + 1], step});
+    else
+      stretches.push_back({panel, run[i], run[i + 1], step});
   }
   return stretches;
 }
@@ -75,9 +80,12 @@ void add_runs(const EdgedOutline& outline, const Stretch& stretch,
   int at = from;
   do {
     int end = outline.next(at, stretch.step);
-    while (!outline.ends[end]) end = outline.next(end, stretch.step);
-    if (stretch.step > 0) runs.push_back({stretch.panel, edge_from(at), 0, 1});
-    else runs.push_back({stretch.panel, edge_from(end), 1, 0});
+    while (!outline.ends[end])
+      end = outline.next(end, stretch.step);
+    if (stretch.step > 0)
+      runs.push_back({stretch.panel, edge_from(at), 0, 1});
+    else
+      runs.push_back({stretch.panel, edge_from(end), 1, 0});
     at = end;
   } while (at != to);
 }
@@ -88,7 +96,8 @@ void mark_corners(const Garment& shape, EdgedOutline& outline) {
                &before = shape.panels.pattern[outline.vertices[outline.next(i, -1)]],
                &after = shape.panels.pattern[outline.vertices[outline.next(i, 1)]];
     const Vec2 u = p - before, v = after - p;
-    if (std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v))) > CORNER) outline.ends[i] = 1;
+    if (std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v))) > CORNER)
+      outline.ends[i] = 1;
   }
 }
 
@@ -100,7 +109,8 @@ std::vector<EdgedOutline> edged_outlines(const Garment& shape,
   for (const pattern::PanelInfo& info : shape.panels.panels) {
     EdgedOutline outline;
     outline.vertices = info.outline;
-    for (int i = 0; i < outline.n(); ++i) outline.position[outline.vertices[i]] = i;
+    for (int i = 0; i < outline.n(); ++i)
+      outline.position[outline.vertices[i]] = i;
     outline.ends.assign(outline.vertices.size(), 0);
     if (drawn) {
       const std::vector<int>& edge_of = drawn->edge_of[outlines.size()];
@@ -121,7 +131,8 @@ std::vector<std::string> edge_names(const EdgedOutline& outline, const pattern::
   std::vector<std::string> names;
   std::map<int, int> pieces, piece;
   if (drawn)
-    for (const int start : outline.edge_starts) ++pieces[(*edge_of)[start]];
+    for (const int start : outline.edge_starts)
+      ++pieces[(*edge_of)[start]];
   for (std::size_t e = 0; e < outline.edge_starts.size(); ++e) {
     std::string name = "e" + std::to_string(e);
     if (drawn) {
@@ -129,7 +140,8 @@ std::vector<std::string> edge_names(const EdgedOutline& outline, const pattern::
       name = drawn->edge(from).name;
       if (pieces[from] > 1) {
         name += "_" + std::to_string(++piece[from]);
-        while (drawn->find_edge(name) >= 0) name += "_";
+        while (drawn->find_edge(name) >= 0)
+          name += "_";
       }
     }
     names.push_back(name);
@@ -182,14 +194,15 @@ pattern::PlacementHint moved_hint(const pattern::PlacementHint& drawn,
         std::min_element(outline.begin(), outline.end(), [&](const Vec2& a, const Vec2& b) {
           return (a - *drawn.anchor).norm() < (b - *drawn.anchor).norm();
         });
-    const int v = info.outline[static_cast<std::size_t>(nearest - outline.begin())];
+    const int v = info.outline[nearest - outline.begin()];
     *hint.anchor += garment.panels.pattern[v] - *nearest;
     if (hint.height)
       hint.height = garment.position[garment.particle_of[v]].y() + (*drawn.anchor - *nearest).y();
   }
   if (hint.radius) {
     std::vector<Vec2> now;
-    for (const int v : info.outline) now.push_back(garment.panels.pattern[v]);
+    for (const int v : info.outline)
+      now.push_back(garment.panels.pattern[v]);
     *hint.radius *= width_of(now) / width_of(outline);
   }
   if (hint.rigid) {
@@ -209,17 +222,21 @@ pattern::Notch moved_notch(const pattern::Notch& drawn, const std::vector<Vec2>&
                            const pattern::Panel& panel) {
   const auto length = [&](int i) { return (outline[edged.next(i, 1)] - outline[i]).norm(); };
   const auto [first, last] = std::equal_range(edge_of.begin(), edge_of.end(), drawn.edge);
-  if (first == last) return {-1, 0, drawn.kind}; // of an edge that is shorter than the mesh's
+  if (first == last)
+    return {-1, 0, drawn.kind}; // of an edge that is shorter than the mesh's
   int at = static_cast<int>(first - edge_of.begin());
   double left = 0;
-  for (int i = at; i < last - edge_of.begin(); ++i) left += drawn.at * length(i);
-  for (; at + 1 < last - edge_of.begin() && left > length(at); ++at) left -= length(at);
+  for (int i = at; i < last - edge_of.begin(); ++i)
+    left += drawn.at * length(i);
+  for (; at + 1 < last - edge_of.begin() && left > length(at); ++at)
+    left -= length(at);
   // The new edge that this mesh edge is part of, and how far along it the notch lies.
   const auto start = std::upper_bound(edged.edge_starts.begin(), edged.edge_starts.end(), at) - 1;
   pattern::Notch notch{static_cast<int>(start - edged.edge_starts.begin()), 0, drawn.kind};
   const pattern::Path& path = panel.edge(notch.edge).path;
   double before = 0;
-  for (int i = 0; i < at - *start; ++i) before += (path[i].p[3] - path[i].p[0]).norm();
+  for (int i = 0; i < at - *start; ++i)
+    before += (path[i].p[3] - path[i].p[0]).norm();
   const pattern::Segment& on = path[at - *start];
   notch.at = std::min((before + std::min(left / length(at), 1.0) * (on.p[3] - on.p[0]).norm()) /
                           pattern::length(path),
@@ -235,7 +252,7 @@ void take_over(const DrawnPattern& drawn, std::size_t k, const Garment& garment,
   panel.label = from.label;
   panel.hint = moved_hint(from.hint, drawn.outlines[k], garment, shape, garment.panels.panels[k]);
   for (const pattern::Notch& notch : from.notches)
-    if (notch.edge < static_cast<int>(from.loops[0].size()))
+    if (notch.edge < std::ssize(from.loops[0]))
       if (const pattern::Notch moved =
               moved_notch(notch, drawn.outlines[k], drawn.edge_of[k], edged, panel);
           moved.edge >= 0)
@@ -271,12 +288,14 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
         std::find(outline.ends.begin(), outline.ends.end(), 1) == outline.ends.end())
       outline.ends[0] = 1; // a round panel
     for (int i = 0; i < outline.n(); ++i)
-      if (outline.ends[i]) outline.edge_starts.push_back(i);
+      if (outline.ends[i])
+        outline.edge_starts.push_back(i);
     const std::vector<std::string> names =
         edge_names(outline, drawn ? &drawn->pattern->panels[k] : nullptr,
                    drawn ? &drawn->edge_of[k] : nullptr);
     result.panels.push_back(panel_of(garment, garment.panels.panels[k], outline, names));
-    if (drawn) take_over(*drawn, k, garment, shape, outline, result);
+    if (drawn)
+      take_over(*drawn, k, garment, shape, outline, result);
   }
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const pattern::MeshSeam& from = garment.panels.seams[s];
@@ -292,11 +311,14 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
     seam.name = from.name;
     seam.kind = from.kind;
     seam.open = from.open;
-    for (const Stretch& stretch : sides[s][0]) add_runs(outlines[stretch.panel], stretch, seam.a);
-    for (const Stretch& stretch : sides[s][1]) add_runs(outlines[stretch.panel], stretch, seam.b);
+    for (const Stretch& stretch : sides[s][0])
+      add_runs(outlines[stretch.panel], stretch, seam.a);
+    for (const Stretch& stretch : sides[s][1])
+      add_runs(outlines[stretch.panel], stretch, seam.b);
     if (drawn)
       for (const pattern::Seam& same : drawn->pattern->seams)
-        if (same.name == from.name) seam.ease = same.ease;
+        if (same.name == from.name)
+          seam.ease = same.ease;
     result.seams.push_back(std::move(seam));
   }
   return result;

@@ -22,7 +22,8 @@ struct Source {
 
 const pattern::PanelInfo* panel_named(const pattern::PanelMesh& mesh, const std::string& name) {
   for (const pattern::PanelInfo& p : mesh.panels)
-    if (p.name == name) return &p;
+    if (p.name == name)
+      return &p;
   return nullptr;
 }
 
@@ -36,20 +37,22 @@ bool beside(const pattern::PanelMesh& mesh, const pattern::PanelInfo& a,
   std::vector<std::array<int, 2>> pairs;
   for (const pattern::MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k)
-      if (owns(a, s.a[k]) && owns(b, s.b[k])) pairs.push_back({s.a[k], s.b[k]});
-      else if (owns(a, s.b[k]) && owns(b, s.a[k])) pairs.push_back({s.b[k], s.a[k]});
-  if (pairs.size() < 2) return false;
+      if (owns(a, s.a[k]) && owns(b, s.b[k]))
+        pairs.push_back({s.a[k], s.b[k]});
+      else if (owns(a, s.b[k]) && owns(b, s.a[k]))
+        pairs.push_back({s.b[k], s.a[k]});
+  if (pairs.size() < 2)
+    return false;
   Vec2 mean_a = Vec2::Zero(), mean_b = Vec2::Zero();
   for (const auto& [v, w] : pairs) {
-    mean_a += mesh.pattern[static_cast<std::size_t>(v)];
-    mean_b += mesh.pattern[static_cast<std::size_t>(w)];
+    mean_a += mesh.pattern[v];
+    mean_b += mesh.pattern[w];
   }
   mean_a /= static_cast<double>(pairs.size());
   mean_b /= static_cast<double>(pairs.size());
   double along = 0, across = 0;
   for (const auto& [v, w] : pairs) {
-    const Vec2 p = mesh.pattern[static_cast<std::size_t>(w)] - mean_b,
-               q = mesh.pattern[static_cast<std::size_t>(v)] - mean_a;
+    const Vec2 p = mesh.pattern[w] - mean_b, q = mesh.pattern[v] - mean_a;
     along += p.dot(q);
     across += p.x() * q.y() - p.y() * q.x();
   }
@@ -73,7 +76,7 @@ Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& square
   Vec3 best(1, 0, 0);
   squared_distance = 1e300;
   for (int k = 0; k < 3; ++k) {
-    const Vec2 &a = t[static_cast<std::size_t>(k)], &b = t[static_cast<std::size_t>((k + 1) % 3)];
+    const Vec2 &a = t[k], &b = t[(k + 1) % 3];
     const double length = (b - a).squaredNorm(),
                  s = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
     const double off = (a + s * (b - a) - p).squaredNorm();
@@ -94,7 +97,7 @@ public:
       : m_low(Vec2::Constant(1e300)), m_cell(std::max(mesh.edge_length, 1e-4)) {
     Vec2 high = Vec2::Constant(-1e300);
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
-      const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+      const Vec2& p = mesh.pattern[v];
       m_low = m_low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
@@ -104,8 +107,8 @@ public:
     m_triangles.resize(static_cast<std::size_t>(m_nx) * static_cast<std::size_t>(m_ny));
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
       Vec2 least = Vec2::Constant(1e300), most = Vec2::Constant(-1e300);
-      for (int v : mesh.triangles[static_cast<std::size_t>(f)]) {
-        const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)] - m_low;
+      for (int v : mesh.triangles[f]) {
+        const Vec2 p = mesh.pattern[v] - m_low;
         least = least.cwiseMin(p);
         most = most.cwiseMax(p);
       }
@@ -118,7 +121,8 @@ public:
   const std::vector<int>& near(const Vec2& p) const {
     static const std::vector<int> none;
     const Vec2 at = (p - m_low) / m_cell;
-    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < m_nx && at.y() < m_ny)) return none;
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < m_nx && at.y() < m_ny))
+      return none;
     return m_triangles[index(static_cast<int>(at.x()), static_cast<int>(at.y()))];
   }
 
@@ -143,22 +147,23 @@ void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& 
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
-      around[static_cast<std::size_t>(a)] += position[static_cast<std::size_t>(b)];
-      ++count[static_cast<std::size_t>(a)];
-      around[static_cast<std::size_t>(b)] += position[static_cast<std::size_t>(a)];
-      ++count[static_cast<std::size_t>(b)];
+      around[a] += position[b];
+      ++count[a];
+      around[b] += position[a];
+      ++count[b];
     }
   const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
   std::set<int> ends;
-  for (const auto& edge : free) ends.insert(edge.begin(), edge.end());
+  for (const auto& edge : free)
+    ends.insert(edge.begin(), edge.end());
   std::vector<std::pair<std::size_t, Vec3>> moved;
   for (int p : ends) {
     const auto v = static_cast<std::size_t>(p);
     const Vec3& x = position[v];
     const bool meets = std::any_of(free.begin(), free.end(), [&](const std::array<int, 2>& e) {
-      if (e[0] == p || e[1] == p) return false;
-      const Vec3 &a = position[static_cast<std::size_t>(e[0])],
-                 along = position[static_cast<std::size_t>(e[1])] - a;
+      if (e[0] == p || e[1] == p)
+        return false;
+      const Vec3 &a = position[e[0]], along = position[e[1]] - a;
       const double s = along.squaredNorm() > 0
                            ? std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0)
                            : 0.0;
@@ -168,7 +173,8 @@ void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& 
     if (meets && inwards.norm() > 0)
       moved.push_back({v, x + std::min(PARTED / inwards.norm(), 0.25) * inwards});
   }
-  for (const auto& [v, x] : moved) position[v] = x;
+  for (const auto& [v, x] : moved)
+    position[v] = x;
 }
 
 } // namespace
@@ -179,45 +185,47 @@ void transfer_state(Garment& garment, pattern::PanelMesh mesh) {
   for (pattern::PanelInfo& panel : mesh.panels) {
     std::vector<Source> sources;
     const pattern::PanelInfo* same = panel_named(old, panel.name);
-    if (same) sources.push_back({same});
+    if (same)
+      sources.push_back({same});
     for (const pattern::PanelInfo& p : old.panels) {
-      if (panel_named(mesh, p.name)) continue;
+      if (panel_named(mesh, p.name))
+        continue;
       Source gone{&p};
-      if (!same || beside(old, *same, p, gone)) sources.push_back(gone);
+      if (!same || beside(old, *same, p, gone))
+        sources.push_back(gone);
     }
     if (sources.empty())
-      for (const pattern::PanelInfo& p : old.panels) sources.push_back({&p});
+      for (const pattern::PanelInfo& p : old.panels)
+        sources.push_back({&p});
     std::vector<double> votes(sources.size(), 0);
     std::vector<PanelCells> cells;
-    for (const Source& s : sources) cells.emplace_back(old, *s.panel);
+    for (const Source& s : sources)
+      cells.emplace_back(old, *s.panel);
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
       double least = 1e300;
       std::size_t voted = 0;
       const auto look_at = [&](std::size_t s, const Vec2& p, int f) {
-        const Triangle& t = old.triangles[static_cast<std::size_t>(f)];
+        const Triangle& t = old.triangles[f];
         double off = 0;
-        const Vec3 w = nearest_weights({old.pattern[static_cast<std::size_t>(t[0])],
-                                        old.pattern[static_cast<std::size_t>(t[1])],
-                                        old.pattern[static_cast<std::size_t>(t[2])]},
-                                       p, off);
-        if (off >= least) return;
+        const Vec3 w =
+            nearest_weights({old.pattern[t[0]], old.pattern[t[1]], old.pattern[t[2]]}, p, off);
+        if (off >= least)
+          return;
         least = off;
         voted = s;
         Vec3 at = Vec3::Zero();
         for (int k = 0; k < 3; ++k)
-          at += w[k] *
-                garment.position[static_cast<std::size_t>(
-                    garment.particle_of[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])])];
-        position[static_cast<std::size_t>(v)] = at;
+          at += w[k] * garment.position[garment.particle_of[t[k]]];
+        position[v] = at;
       };
       const auto place_in = [&](std::size_t s) {
-        return Vec2(sources[s].turn.transpose() *
-                    (mesh.pattern[static_cast<std::size_t>(v)] - sources[s].shift));
+        return Vec2(sources[s].turn.transpose() * (mesh.pattern[v] - sources[s].shift));
       };
       for (std::size_t s = 0; s < sources.size() && least > 0; ++s) {
         const Vec2 p = place_in(s);
         const std::vector<int>& near = cells[s].near(p);
-        for (std::size_t k = 0; k < near.size() && least > 0; ++k) look_at(s, p, near[k]);
+        for (std::size_t k = 0; k < near.size() && least > 0; ++k)
+          look_at(s, p, near[k]);
       }
       for (std::size_t s = 0; s < sources.size() && least > 0;
            ++s) { // beside all of them: the nearest
@@ -228,9 +236,7 @@ void transfer_state(Garment& garment, pattern::PanelMesh mesh) {
       }
       ++votes[voted];
     }
-    panel.part = sources[static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) -
-                                                  votes.begin())]
-                     .panel->part;
+    panel.part = sources[std::max_element(votes.begin(), votes.end()) - votes.begin()].panel->part;
   }
   mesh.placed = position;
   garment.panels = std::move(mesh);

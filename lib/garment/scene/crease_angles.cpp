@@ -13,10 +13,12 @@ static bool runs_along(const cloth::Hinge& hinge, const std::vector<int>& run) {
 
 void firm_creases(cloth::ClothMesh& mesh, const Garment& garment) {
   for (const SceneCrease& crease : garment.scene.creases) {
-    if (!(crease.firmness > 1)) continue;
+    if (!(crease.firmness > 1))
+      continue;
     const std::vector<int> run = run_particles(garment, crease.run);
     for (cloth::Hinge& hinge : mesh.hinges)
-      if (runs_along(hinge, run)) hinge.firmness = (crease.firmness - 1) * hinge.stiffness;
+      if (runs_along(hinge, run))
+        hinge.firmness = (crease.firmness - 1) * hinge.stiffness;
   }
 }
 
@@ -24,7 +26,8 @@ std::vector<double> crease_angles(const cloth::ClothMesh& mesh, const Garment& g
                                   bool open_seams) {
   std::vector<double> rest(mesh.hinges.size(), 0);
   for (const SceneCrease& crease : garment.scene.creases) {
-    if (open_seams && crease.firmness > 1) continue;
+    if (open_seams && crease.firmness > 1)
+      continue;
     const std::vector<int> run = run_particles(garment, crease.run);
     for (std::size_t h = 0; h < mesh.hinges.size(); ++h) {
       const cloth::Hinge& hinge = mesh.hinges[h];

@@ -14,14 +14,16 @@ namespace sloper::garment {
 static std::vector<const char*> models_of(EffectModel model) {
   std::vector<const char*> names;
   for (const EffectSpec& spec : effect_registry())
-    if (spec.model == model) names.push_back(spec.name);
+    if (spec.model == model)
+      names.push_back(spec.name);
   return names;
 }
 
 static EffectReport& named(std::vector<EffectReport>& effects, const std::string& name) {
   const auto found = std::find_if(effects.begin(), effects.end(),
                                   [&](const EffectReport& e) { return e.name == name; });
-  if (found != effects.end()) return *found;
+  if (found != effects.end())
+    return *found;
   std::string names;
   std::vector<std::string> known;
   for (const EffectReport& e : effects) {
@@ -35,7 +37,8 @@ static EffectReport& named(std::vector<EffectReport>& effects, const std::string
 /// One that is named takes the place of the others of its kind.
 static void replace_others(std::vector<EffectReport>& effects, const std::string& name) {
   auto replace = [&](const auto& models) {
-    if (std::find(std::begin(models), std::end(models), name) == std::end(models)) return;
+    if (std::find(std::begin(models), std::end(models), name) == std::end(models))
+      return;
     for (const char* other : models)
       if (other != name && named(effects, other).active) {
         named(effects, other).active = false;
@@ -115,11 +118,13 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
   }
   std::vector<std::string> list;
   std::stringstream stream(settings.effects);
-  for (std::string name; std::getline(stream, name, ',');) list.push_back(name);
+  for (std::string name; std::getline(stream, name, ',');)
+    list.push_back(name);
   const bool changes =
       !list.empty() &&
       list[0] == "auto"; // auto, then what is to be on (name) or off (-name) all the same
-  if (changes) list.erase(list.begin());
+  if (changes)
+    list.erase(list.begin());
   else
     for (EffectReport& e : effects) {
       e.active = false;
@@ -130,7 +135,8 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
     EffectReport& e = named(effects, off ? name.substr(1) : name);
     e.active = !off;
     e.why = off ? "switched off by the list of effects" : "named in the list of effects";
-    if (changes && !off) replace_others(effects, name);
+    if (changes && !off)
+      replace_others(effects, name);
   }
   check_models(effects);
   return effects;
@@ -139,12 +145,14 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
 void prepare_mesh(cloth::ClothMesh& mesh, const Garment& garment,
                   const std::vector<EffectReport>& chosen) {
   for (const EffectSpec& spec : effect_registry())
-    if (spec.prepare) spec.prepare(mesh, garment, is_active(chosen, spec.name));
+    if (spec.prepare)
+      spec.prepare(mesh, garment, is_active(chosen, spec.name));
 }
 
 void add_effects(EffectStage stage, EffectBuild& build, const std::vector<EffectReport>& chosen) {
   for (const EffectSpec& spec : effect_registry())
-    if (spec.stage == stage && spec.add && is_active(chosen, spec.name)) spec.add(build);
+    if (spec.stage == stage && spec.add && is_active(chosen, spec.name))
+      spec.add(build);
 }
 
 bool is_active(const std::vector<EffectReport>& effects, const std::string& name) {

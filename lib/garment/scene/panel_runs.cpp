@@ -58,12 +58,14 @@ std::vector<int> through(const Garment& garment, const pattern::PanelInfo& panel
   while (!queue.empty()) {
     const auto [d, v] = queue.top();
     queue.pop();
-    if (d > distance[v]) continue;
+    if (d > distance[v])
+      continue;
     for (int w : next[v]) {
       const double through_v = d + (garment.panels.pattern[w + panel.first_vertex] -
                                     garment.panels.pattern[v + panel.first_vertex])
                                        .norm();
-      if (through_v >= distance[w]) continue;
+      if (through_v >= distance[w])
+        continue;
       distance[w] = through_v;
       before[w] = v;
       queue.push({through_v, w});
@@ -82,7 +84,8 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
   std::string names;
   std::vector<std::string> words;
   for (const pattern::PanelInfo& p : garment.panels.panels) {
-    if (p.name == name) return p;
+    if (p.name == name)
+      return p;
     words.push_back(p.name);
     names += (names.empty() ? "" : ", ") + p.name;
   }
@@ -98,7 +101,8 @@ std::vector<int> run_vertices(const Garment& garment, const PanelRun& run) {
   const pattern::PanelInfo& panel = panel_named(garment, run.panel);
   const int from = nearest_vertex(garment, panel, run.from),
             to = nearest_vertex(garment, panel, run.to);
-  if (from == to) return {from};
+  if (from == to)
+    return {from};
   const auto a = std::find(panel.outline.begin(), panel.outline.end(), from),
              b = std::find(panel.outline.begin(), panel.outline.end(), to);
   if (a == panel.outline.end() || b == panel.outline.end())
@@ -114,7 +118,8 @@ std::vector<int> run_particles(const Garment& garment, const PanelRun& run) {
   std::vector<int> particles;
   for (int v : run_vertices(garment, run)) {
     const int p = particle_at(garment, v);
-    if (particles.empty() || particles.back() != p) particles.push_back(p);
+    if (particles.empty() || particles.back() != p)
+      particles.push_back(p);
   }
   return particles;
 }

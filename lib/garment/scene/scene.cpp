@@ -57,12 +57,15 @@ Scene read_scene(const std::string& path) {
                    "pins",     "bands",       "attachments", "shrink",      "creases",    "weights",
                    "wind_m_s", "pressure_pa", "closures",    "roll_lines",  "interfacing"});
   Scene scene;
-  if (root.has("body")) scene.body = io::path_beside(path, root.at("body").string());
-  if (root.has("panels")) scene.panels = io::path_beside(path, root.at("panels").string());
+  if (root.has("body"))
+    scene.body = io::path_beside(path, root.at("body").string());
+  if (root.has("panels"))
+    scene.panels = io::path_beside(path, root.at("panels").string());
   scene.accuracy = root.string("accuracy", "");
   if (root.has("effects")) {
     const io::Node effects = root.at("effects");
-    if (effects.is_string()) scene.effects = effects.string();
+    if (effects.is_string())
+      scene.effects = effects.string();
     else
       for (std::size_t i = 0; i < effects.size(); ++i)
         scene.effects.append(i ? "," : "").append(effects.at(i).string());
@@ -92,23 +95,34 @@ Scene read_scene(const std::string& path) {
 }
 
 void apply_scene(const Scene& scene, Garment& garment) {
-  for (const auto& [name, material] : scene.materials) garment.materials[name] = material;
+  for (const auto& [name, material] : scene.materials)
+    garment.materials[name] = material;
   const SceneEffects& from = scene.extras;
   SceneEffects& to = garment.scene;
-  if (!from.membrane.empty()) to.membrane = from.membrane;
-  if (!from.bending.empty()) to.bending = from.bending;
-  if (!from.pins.empty()) to.pins = from.pins;
-  if (!from.bands.empty()) to.bands = from.bands;
-  if (!from.attachments.empty()) to.attachments = from.attachments;
-  if (!from.shrink.empty()) to.shrink = from.shrink;
-  if (!from.creases.empty()) to.creases = from.creases;
-  if (!from.weights.empty()) to.weights = from.weights;
-  if (!from.closures.empty()) to.closures = from.closures;
+  if (!from.membrane.empty())
+    to.membrane = from.membrane;
+  if (!from.bending.empty())
+    to.bending = from.bending;
+  if (!from.pins.empty())
+    to.pins = from.pins;
+  if (!from.bands.empty())
+    to.bands = from.bands;
+  if (!from.attachments.empty())
+    to.attachments = from.attachments;
+  if (!from.shrink.empty())
+    to.shrink = from.shrink;
+  if (!from.creases.empty())
+    to.creases = from.creases;
+  if (!from.weights.empty())
+    to.weights = from.weights;
+  if (!from.closures.empty())
+    to.closures = from.closures;
   if (from.air) {
     to.air = true;
     to.wind_m_s = from.wind_m_s;
   }
-  if (from.pressure_pa != 0) to.pressure_pa = from.pressure_pa;
+  if (from.pressure_pa != 0)
+    to.pressure_pa = from.pressure_pa;
 }
 
 void apply_interfacing(const Scene& scene, Garment& garment) {
@@ -117,7 +131,8 @@ void apply_interfacing(const Scene& scene, Garment& garment) {
       const std::string wanted =
           panel_named(garment, name).name; // or it is said that there is none
       for (pattern::PanelInfo& panel : garment.panels.panels) {
-        if (panel.name != wanted) continue;
+        if (panel.name != wanted)
+          continue;
         const Material material =
             layered(material_of(garment, panel.material), {interfacing.layer});
         std::string key = material.name;
@@ -126,7 +141,8 @@ void apply_interfacing(const Scene& scene, Garment& garment) {
           return there != garment.materials.end() &&
                  material_json(there->second) != material_json(material);
         };
-        while (is_another()) key += "'";
+        while (is_another())
+          key += "'";
         panel.material = key;
         garment.materials[key] = material;
       }
@@ -135,7 +151,8 @@ void apply_interfacing(const Scene& scene, Garment& garment) {
 
 std::vector<std::string> accuracy_names() {
   std::vector<std::string> names;
-  for (const Preset& p : PRESETS) names.emplace_back(p.name);
+  for (const Preset& p : PRESETS)
+    names.emplace_back(p.name);
   return names;
 }
 
@@ -163,9 +180,12 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
       if (!(value >= k.low && value <= k.high))
         throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", name, "is out of range",
                     "give a value from " + std::to_string(k.low) + " to " + std::to_string(k.high));
-      if (k.real) settings.*k.real = value;
-      else settings.*k.whole = static_cast<int>(value);
-      if (k.whole == &DrapeSettings::max_steps) settings.extra_steps = 0;
+      if (k.real)
+        settings.*k.real = value;
+      else
+        settings.*k.whole = static_cast<int>(value);
+      if (k.whole == &DrapeSettings::max_steps)
+        settings.extra_steps = 0;
       return;
     }
     words.emplace_back(k.name);
@@ -203,8 +223,10 @@ io::Json settings_json(const DrapeSettings& settings) {
   out["accuracy"] = settings.accuracy;
   out["effects"] = settings.effects;
   for (const Knob& k : knobs()) {
-    if (k.real) out[k.name] = settings.*k.real;
-    else out[k.name] = settings.*k.whole;
+    if (k.real)
+      out[k.name] = settings.*k.real;
+    else
+      out[k.name] = settings.*k.whole;
   }
   out["extra_steps"] = settings.extra_steps;
   return out;

@@ -17,7 +17,8 @@ constexpr double DEGREE = units::PI / 180;
 constexpr double ROLL_ANGLE = 165, ROLL_FIRMNESS = 30;
 
 double in_range(const Node& node, const char* key, double fallback, double low, double high) {
-  if (!node.has(key)) return fallback;
+  if (!node.has(key))
+    return fallback;
   const double value = node.at(key).number();
   if (!(value >= low && value <= high))
     node.at(key).fail("json.out-of-range"_id, "is out of range",
@@ -26,11 +27,13 @@ double in_range(const Node& node, const char* key, double fallback, double low, 
 }
 
 std::string one_of(const Node& node, const char* key, std::initializer_list<const char*> names) {
-  if (!node.has(key)) return {};
+  if (!node.has(key))
+    return {};
   const std::string value = node.at(key).string();
   std::string list;
   for (const char* name : names) {
-    if (value == name) return value;
+    if (value == name)
+      return value;
     list += (list.empty() ? "" : ", ") + std::string(name);
   }
   node.at(key).fail("json.unknown-word"_id, "\"" + value + "\" is not known", "known are " + list);
@@ -64,17 +67,22 @@ Json run_json(const PanelRun& run) {
 
 template<class Item, class Read>
 void read_list(const Node& node, const char* key, std::vector<Item>& list, Read read) {
-  if (!node.has(key)) return;
+  if (!node.has(key))
+    return;
   const Node items = node.at(key);
-  if (!items.is_array()) items.fail("json.wrong-type"_id, "expected a list");
-  for (std::size_t k = 0; k < items.size(); ++k) list.push_back(read(items.at(k)));
+  if (!items.is_array())
+    items.fail("json.wrong-type"_id, "expected a list");
+  for (std::size_t k = 0; k < items.size(); ++k)
+    list.push_back(read(items.at(k)));
 }
 
 template<class Item, class Write>
 void write_list(Json& out, const char* key, const std::vector<Item>& list, Write write) {
-  if (list.empty()) return;
+  if (list.empty())
+    return;
   out[key] = Json::array();
-  for (const Item& item : list) out[key].push_back(write(item));
+  for (const Item& item : list)
+    out[key].push_back(write(item));
 }
 
 } // namespace
@@ -88,7 +96,8 @@ SceneEffects read_scene_effects(const Node& node) {
     ScenePin pin;
     pin.run = read_run(n);
     pin.has_target = n.has("target_m");
-    if (pin.has_target) pin.target = n.at("target_m").vec3();
+    if (pin.has_target)
+      pin.target = n.at("target_m").vec3();
     pin.stiffness_n_m = in_range(n, "stiffness_n_m", pin.stiffness_n_m, 1e-3, 1e7);
     return pin;
   });
@@ -107,7 +116,8 @@ SceneEffects read_scene_effects(const Node& node) {
     a.run = read_run(n);
     if (n.has("anchor_m") == n.has("landmark"))
       n.fail("json.missing-key"_id, "needs either anchor_m or landmark");
-    if (n.has("anchor_m")) a.anchor = n.at("anchor_m").vec3();
+    if (n.has("anchor_m"))
+      a.anchor = n.at("anchor_m").vec3();
     a.landmark = n.string("landmark", "");
     a.rest_length_m = in_range(n, "rest_length_m", a.rest_length_m, 0, 10);
     a.stiffness_n_m = in_range(n, "stiffness_n_m", a.stiffness_n_m, 1e-3, 1e7);
@@ -117,8 +127,10 @@ SceneEffects read_scene_effects(const Node& node) {
     n.allow_only({"panel", "from", "to", "warp", "weft"});
     SceneShrink s;
     s.panel = n.string("panel", "");
-    if (n.has("from")) s.low = n.at("from").vec2();
-    if (n.has("to")) s.high = n.at("to").vec2();
+    if (n.has("from"))
+      s.low = n.at("from").vec2();
+    if (n.has("to"))
+      s.high = n.at("to").vec2();
     s.warp = in_range(n, "warp", 1, 0.05, 3);
     s.weft = in_range(n, "weft", 1, 0.05, 3);
     return s;
@@ -143,7 +155,8 @@ SceneEffects read_scene_effects(const Node& node) {
     const std::string kind = one_of(n, "kind", {"buttons", "zip"});
     if (kind == "zip" && n.has("count"))
       n.at("count").fail("scene.bad-effect"_id, "a zip is not counted");
-    if (kind != "zip") closure.count = static_cast<int>(in_range(n, "count", 5, 1, 200));
+    if (kind != "zip")
+      closure.count = static_cast<int>(in_range(n, "count", 5, 1, 200));
     closure.stiffness_n_m = in_range(n, "stiffness_n_m", closure.stiffness_n_m, 1, 1e6);
     return closure;
   });
@@ -155,7 +168,8 @@ SceneEffects read_scene_effects(const Node& node) {
     return weight;
   });
   scene.air = node.has("wind_m_s");
-  if (scene.air) scene.wind_m_s = node.at("wind_m_s").vec3();
+  if (scene.air)
+    scene.wind_m_s = node.at("wind_m_s").vec3();
   if (scene.wind_m_s.norm() > 100)
     node.at("wind_m_s").fail("json.out-of-range"_id, "is beyond 100 m/s");
   scene.pressure_pa = in_range(node, "pressure_pa", 0, -1e5, 1e5);
@@ -164,11 +178,14 @@ SceneEffects read_scene_effects(const Node& node) {
 
 Json scene_effects_json(const SceneEffects& scene) {
   Json out = Json::object();
-  if (!scene.membrane.empty()) out["membrane"] = scene.membrane;
-  if (!scene.bending.empty()) out["bending"] = scene.bending;
+  if (!scene.membrane.empty())
+    out["membrane"] = scene.membrane;
+  if (!scene.bending.empty())
+    out["bending"] = scene.bending;
   write_list(out, "pins", scene.pins, [](const ScenePin& pin) {
     Json j = run_json(pin.run);
-    if (pin.has_target) j["target_m"] = io::to_json(pin.target);
+    if (pin.has_target)
+      j["target_m"] = io::to_json(pin.target);
     j["stiffness_n_m"] = pin.stiffness_n_m;
     return j;
   });
@@ -180,15 +197,18 @@ Json scene_effects_json(const SceneEffects& scene) {
   });
   write_list(out, "attachments", scene.attachments, [](const SceneAttachment& a) {
     Json j = run_json(a.run);
-    if (a.landmark.empty()) j["anchor_m"] = io::to_json(a.anchor);
-    else j["landmark"] = a.landmark;
+    if (a.landmark.empty())
+      j["anchor_m"] = io::to_json(a.anchor);
+    else
+      j["landmark"] = a.landmark;
     j["rest_length_m"] = a.rest_length_m;
     j["stiffness_n_m"] = a.stiffness_n_m;
     return j;
   });
   write_list(out, "shrink", scene.shrink, [](const SceneShrink& s) {
     Json j;
-    if (!s.panel.empty()) j["panel"] = s.panel;
+    if (!s.panel.empty())
+      j["panel"] = s.panel;
     j["from"] = io::to_json(s.low);
     j["to"] = io::to_json(s.high);
     j["warp"] = s.warp;
@@ -198,7 +218,8 @@ Json scene_effects_json(const SceneEffects& scene) {
   write_list(out, "creases", scene.creases, [](const SceneCrease& crease) {
     Json j = run_json(crease.run);
     j["angle_deg"] = crease.angle_rad / DEGREE;
-    if (crease.firmness != 1) j["firmness"] = crease.firmness;
+    if (crease.firmness != 1)
+      j["firmness"] = crease.firmness;
     return j;
   });
   write_list(out, "weights", scene.weights, [](const SceneWeight& weight) {
@@ -211,12 +232,15 @@ Json scene_effects_json(const SceneEffects& scene) {
     j["kind"] = closure.count > 0 ? "buttons" : "zip";
     j.update(run_json(closure.run));
     j["with"] = run_json(closure.with);
-    if (closure.count > 0) j["count"] = closure.count;
+    if (closure.count > 0)
+      j["count"] = closure.count;
     j["stiffness_n_m"] = closure.stiffness_n_m;
     return j;
   });
-  if (scene.air) out["wind_m_s"] = io::to_json(scene.wind_m_s);
-  if (scene.pressure_pa != 0) out["pressure_pa"] = scene.pressure_pa;
+  if (scene.air)
+    out["wind_m_s"] = io::to_json(scene.wind_m_s);
+  if (scene.pressure_pa != 0)
+    out["pressure_pa"] = scene.pressure_pa;
   return out;
 }
 

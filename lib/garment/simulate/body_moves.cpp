@@ -24,7 +24,9 @@ std::size_t lead_in_frames(const std::vector<Vec3>& from, const std::vector<Vec3
 }
 
 /// Starts and ends gently: 3 t^2 - 2 t^3.
-double eased(double t) { return t * t * (3 - 2 * t); }
+double eased(double t) {
+  return t * t * (3 - 2 * t);
+}
 
 /// NAME.0007.obj with another number of as many digits.
 std::string numbered(const std::string& first, std::size_t number) {
@@ -33,14 +35,16 @@ std::string numbered(const std::string& first, std::size_t number) {
   while (digits < dot && std::isdigit(static_cast<unsigned char>(first[dot - 1 - digits])))
     ++digits;
   std::string text = std::to_string(number);
-  if (text.size() < digits) text.insert(0, digits - text.size(), '0');
+  if (text.size() < digits)
+    text.insert(0, digits - text.size(), '0');
   return first.substr(0, dot - digits) + text + first.substr(dot);
 }
 
 std::size_t number_of(const std::string& first) {
   const std::size_t dot = first.rfind('.');
   std::size_t begin = dot == std::string::npos ? 0 : dot;
-  while (begin > 0 && std::isdigit(static_cast<unsigned char>(first[begin - 1]))) --begin;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(first[begin - 1])))
+    --begin;
   if (dot == std::string::npos || begin == dot || dot - begin > 9)
     throw input_error("motion.unknown-kind"_id, first, "",
                       "is neither a BVH motion nor a numbered skin",
@@ -55,17 +59,20 @@ BodyMoves moves_of(const body::Body& body, const body::Motion& motion) {
     throw input_error("motion.no-pose"_id, "", "motion", "has no pose",
                       "give a motion with one frame at least");
   BodyMoves moves;
-  if (motion.frame_s > 0) moves.frame_s = motion.frame_s;
+  if (motion.frame_s > 0)
+    moves.frame_s = motion.frame_s;
   const auto weights = std::make_shared<body::SkinWeights>(body::skin_weights(body));
   const auto poses = std::make_shared<std::vector<body::Pose>>(motion.poses);
   moves.lead_in = lead_in_frames(body.skin.positions,
                                  body::posed_skin(body, *weights, poses->front()), moves.frame_s);
   moves.n_frames = moves.lead_in + poses->size();
   moves.skin = [&body, weights, poses, lead = moves.lead_in](std::size_t k) {
-    if (k >= lead) return body::posed_skin(body, *weights, (*poses)[k - lead]);
+    if (k >= lead)
+      return body::posed_skin(body, *weights, (*poses)[k - lead]);
     const double t = eased(static_cast<double>(k + 1) / static_cast<double>(lead));
     body::Pose pose = poses->front();
-    for (auto& [joint, turn] : pose.turn) turn = Eigen::Quaterniond::Identity().slerp(t, turn);
+    for (auto& [joint, turn] : pose.turn)
+      turn = Eigen::Quaterniond::Identity().slerp(t, turn);
     pose.shift *= t;
     return body::posed_skin(body, *weights, pose);
   };
@@ -76,7 +83,8 @@ BodyMoves moves_of(const body::Body& body, const body::Motion& motion) {
 BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, double frame_s) {
   const std::size_t first = number_of(first_file);
   std::size_t count = 0;
-  while (std::filesystem::exists(numbered(first_file, first + count))) ++count;
+  while (std::filesystem::exists(numbered(first_file, first + count)))
+    ++count;
   if (count == 0)
     throw input_error("file.not-found"_id, first_file, "", "the file does not exist",
                       "write the sequence with scan-landmarks --pose motion.bvh");
@@ -95,17 +103,20 @@ BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, 
   moves.lead_in = lead_in_frames(body.skin.positions, *begin, frame_s);
   moves.n_frames = moves.lead_in + count;
   moves.skin = [&body, read, begin, lead = moves.lead_in](std::size_t k) {
-    if (k >= lead) return read(k - lead);
+    if (k >= lead)
+      return read(k - lead);
     const double t = eased(static_cast<double>(k + 1) / static_cast<double>(lead));
     std::vector<Vec3> skin = body.skin.positions;
-    for (std::size_t v = 0; v < skin.size(); ++v) skin[v] += t * ((*begin)[v] - skin[v]);
+    for (std::size_t v = 0; v < skin.size(); ++v)
+      skin[v] += t * ((*begin)[v] - skin[v]);
     return skin;
   };
   return moves;
 }
 
 std::string motion_sha256(const std::string& file) {
-  if (file.ends_with(".bvh")) return io::sha256(io::read_file(file));
+  if (file.ends_with(".bvh"))
+    return io::sha256(io::read_file(file));
   std::string sums;
   for (std::size_t number = number_of(file); std::filesystem::exists(numbered(file, number));
        ++number)

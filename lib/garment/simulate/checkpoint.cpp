@@ -49,7 +49,8 @@ Json state_json(const DrapeState& s) {
   s.sew.write(j);
   s.inflate.write(j);
   s.settle.write(j);
-  if (s.move.frame > 0) j["motion"] = s.move.to_json();
+  if (s.move.frame > 0)
+    j["motion"] = s.move.to_json();
   j["fit"] = s.fit.to_json();
   return j;
 }
@@ -77,7 +78,8 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
     node.at("start_height").fail("checkpoint.damaged"_id, "does not belong to this garment");
   if (node.has("motion") || s.phase == DrapePhase::MOVE)
     s.move = MovePhase::State::read(node.at("motion"));
-  if (node.has("fit")) s.fit = FitMonitor::State::read(node.at("fit")); // older ones have none
+  if (node.has("fit"))
+    s.fit = FitMonitor::State::read(node.at("fit")); // older ones have none
   if (s.phase == DrapePhase::MOVE && s.move.velocity.size() != n_particles)
     node.at("motion")
         .at("velocity")
@@ -117,11 +119,15 @@ Json progress_json(const DrapeReport& r) {
 DrapeSettings read_settings(const Node& node) {
   DrapeSettings s;
   for (const std::string& name : node.keys()) {
-    if (name == "accuracy") s.accuracy = node.at(name).string();
-    else if (name == "effects") s.effects = node.at(name).string();
-    else if (name != "extra_steps") set_knob(s, name, node.at(name));
+    if (name == "accuracy")
+      s.accuracy = node.at(name).string();
+    else if (name == "effects")
+      s.effects = node.at(name).string();
+    else if (name != "extra_steps")
+      set_knob(s, name, node.at(name));
   }
-  if (!node.has("extra_steps")) return s; // written before there was one: the limit holds
+  if (!node.has("extra_steps"))
+    return s; // written before there was one: the limit holds
   const Node extra = node.at("extra_steps");
   s.extra_steps = extra.integer();
   if (s.extra_steps < 0 || s.extra_steps > MOST_EXTRA_STEPS)
@@ -219,7 +225,8 @@ LevelsProgress read_levels(const Node& node) {
   const Node meshes = node.at("meshes");
   levels.meshes = meshes.at("meshes").integer();
   levels.why = meshes.string("why", "");
-  if (!meshes.has("coarse")) return l;
+  if (!meshes.has("coarse"))
+    return l;
   const Node coarse = meshes.at("coarse");
   levels.coarse_edge_m = coarse.at("edge_m").number();
   levels.coarse_particles = coarse.at("particles").integer();
@@ -229,7 +236,9 @@ LevelsProgress read_levels(const Node& node) {
 
 } // namespace
 
-int DrapeState::step() const { return phase == DrapePhase::SEW ? sew.step : settle.step; }
+int DrapeState::step() const {
+  return phase == DrapePhase::SEW ? sew.step : settle.step;
+}
 
 void write_checkpoint(const std::string& path, const DrapeCheckpoint& c) {
   Json document = io::new_document("checkpoint", CHECKPOINT_VERSION, "drape");
@@ -239,9 +248,12 @@ void write_checkpoint(const std::string& path, const DrapeCheckpoint& c) {
   document["settings"] = settings_json(c.report.settings);
   document["progress"] = progress_json(c.report);
   document["state"] = state_json(c.state);
-  if (c.motion) document["motion"] = {{"sha256", c.motion->sha256}, {"fps", c.motion->fps}};
-  if (c.layers) document["layers"] = layers_json(*c.layers);
-  if (c.levels) document["levels"] = levels_json(*c.levels);
+  if (c.motion)
+    document["motion"] = {{"sha256", c.motion->sha256}, {"fps", c.motion->fps}};
+  if (c.layers)
+    document["layers"] = layers_json(*c.layers);
+  if (c.levels)
+    document["levels"] = levels_json(*c.levels);
   put_garment(document, c.garment);
   io::write_json(path, document);
 }
@@ -260,7 +272,8 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
   if (c.every_steps < 1)
     root.at("every_steps").fail("json.out-of-range"_id, "expected a number above zero");
   c.has_body = root.at("has_body").boolean();
-  if (root.has("bounds")) c.bounds = read_bounds(root.at("bounds")); // older ones: none
+  if (root.has("bounds"))
+    c.bounds = read_bounds(root.at("bounds")); // older ones: none
   c.garment = take_garment(root);
   c.report = read_progress(root.at("progress"), root.at("settings"));
   c.state = read_state(root.at("state"), c.garment.position.size());
@@ -272,8 +285,10 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
     root.at("state").at("motion").fail("checkpoint.damaged"_id,
                                        "belongs to a motion that the checkpoint does not name");
   }
-  if (root.has("layers")) c.layers = read_layers(root.at("layers"), c.garment.position.size());
-  if (root.has("levels")) c.levels = read_levels(root.at("levels"));
+  if (root.has("layers"))
+    c.layers = read_layers(root.at("layers"), c.garment.position.size());
+  if (root.has("levels"))
+    c.levels = read_levels(root.at("levels"));
   return c;
 }
 
@@ -289,7 +304,8 @@ void DrapeCheckpoint::check_body(const body::Body* body, const std::string& body
   const std::string& began_on = layers ? layers->garments.back().body_sha256 : garment.body_sha256;
   const bool same =
       has_body == (body != nullptr) && (body_sha256.empty() || body_sha256 == began_on);
-  if (same) return;
+  if (same)
+    return;
   std::string fact = "this drape began without a body";
   if (has_body)
     fact =

@@ -26,7 +26,8 @@ constexpr double STRAIN_FALLS = 0.97;
 
 bool FitMonitor::is_calm(const cloth::StepResult& last) const {
   const std::vector<double>& strains = m_state.strains;
-  if (strains.size() < 3) return false;
+  if (strains.size() < 3)
+    return false;
   const auto newest = strains.rbegin();
   const double change = std::abs(newest[1] - newest[0]);
   const double before = std::abs(newest[2] - newest[1]);
@@ -38,7 +39,8 @@ bool FitMonitor::is_calm(const cloth::StepResult& last) const {
 bool FitMonitor::slides(const std::vector<double>& start_height) {
   const std::vector<Vec3>& x = m_cloth.x();
   std::vector<double> sunk;
-  for (std::size_t i = 0; i < x.size(); ++i) sunk.push_back(start_height[i] - x[i].y());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    sunk.push_back(start_height[i] - x[i].y());
   const double slip = upper_median(sunk);
   const bool beyond = slip > m_bounds.slip_m && slip >= m_state.slip;
   m_state.slip = slip;
@@ -48,7 +50,8 @@ bool FitMonitor::slides(const std::vector<double>& start_height) {
 bool FitMonitor::stays_stretched(const cloth::StepResult& last, int steps) {
   std::vector<Weighted> along;
   for (const TriangleStrain& s : triangle_strains(m_cloth.garment(), m_cloth.x()))
-    if (s.area > 0) along.push_back({s.thread(), s.area});
+    if (s.area > 0)
+      along.push_back({s.thread(), s.area});
   std::vector<double>& strains = m_state.strains;
   strains.push_back(area_quantile(along, 0.99));
   const double strain = strains.back();
@@ -59,7 +62,8 @@ bool FitMonitor::stays_stretched(const cloth::StepResult& last, int steps) {
   if (m_bounds.tight && strain > m_bounds.strain_p99 &&
       steps >= m_state.strain_fell_at + STRAINED_STEPS)
     return true;
-  if (!is_calm(last)) return false;
+  if (!is_calm(last))
+    return false;
   const double change = std::abs(strains[strains.size() - 2] - strain);
   return strain - (m_bounds.tight ? TIGHT_LOOKS_AHEAD : LOOSE_LOOKS_AHEAD) * change >
          m_bounds.strain_p99;
@@ -67,8 +71,10 @@ bool FitMonitor::stays_stretched(const cloth::StepResult& last, int steps) {
 
 Misfit FitMonitor::judge(const std::vector<double>& start_height, const cloth::StepResult& last,
                          int steps) {
-  if (m_bounds.slip_m > 0 && slides(start_height)) return Misfit::SLIDES_DOWN;
-  if (m_bounds.strain_p99 > 0 && stays_stretched(last, steps)) return Misfit::STAYS_STRETCHED;
+  if (m_bounds.slip_m > 0 && slides(start_height))
+    return Misfit::SLIDES_DOWN;
+  if (m_bounds.strain_p99 > 0 && stays_stretched(last, steps))
+    return Misfit::STAYS_STRETCHED;
   return Misfit::NONE;
 }
 

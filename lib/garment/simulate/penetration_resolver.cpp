@@ -29,7 +29,8 @@ std::size_t PenetrationResolver::count_in_body() const {
   const collision::BodyCollider* skin = m_body.collider();
   const std::vector<Vec3>& position = m_cloth.garment().position;
   std::size_t count = skin->faces_through(position, m_cloth.garment().particle_triangles()).size();
-  for (const Vec3& p : position) count += skin->is_inside(p);
+  for (const Vec3& p : position)
+    count += skin->is_inside(p);
   return count;
 }
 
@@ -53,16 +54,19 @@ std::size_t PenetrationResolver::untangle() {
   for (int k = 0; k < UNTANGLE_ROUNDS; ++k) {
     tree.refit(x);
     const std::size_t count = collision::self_intersections(x, triangles, tree).size();
-    if (k == 0) at_start = count;
+    if (k == 0)
+      at_start = count;
     if (count < least) {
       least = count;
       position = x;
     }
-    if (count == 0) break;
+    if (count == 0)
+      break;
     const auto pairs = collision::untangle_directions(x, triangles, topology, tree);
     const std::vector<Vec3> move =
         collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += move[i];
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] += move[i];
   }
   if (at_start > 0)
     m_telemetry.add_repair("untangled: " + std::to_string(at_start) +
@@ -83,28 +87,34 @@ std::size_t PenetrationResolver::push_out_of_body(const std::vector<Vec3>& x,
                                                   const std::vector<Triangle>& triangles,
                                                   std::vector<Vec3>& move) const {
   const collision::BodyCollider* skin = m_body.collider();
-  if (!skin) return 0;
+  if (!skin)
+    return 0;
   std::size_t violations = 0;
   std::vector<Vec3> out(x.size(), Vec3::Zero());
   const auto push = [&](int i, const Vec3& by) {
     const double length = by.norm();
     const Vec3 limited = length > PART_STEP ? Vec3(PART_STEP / length * by) : by;
-    if (limited.squaredNorm() > out[i].squaredNorm()) out[i] = limited;
+    if (limited.squaredNorm() > out[i].squaredNorm())
+      out[i] = limited;
   };
   for (std::size_t i = 0; i < x.size(); ++i) {
     const collision::SignedDistance d = skin->signed_distance(x[i], PART_REACH);
     const bool inside = d.triangle >= 0 ? d.distance < 0 : skin->is_inside(x[i]);
-    if (!inside) continue;
+    if (!inside)
+      continue;
     ++violations;
-    if (d.triangle >= 0) push(static_cast<int>(i), (PART_CLEAR - d.distance) * d.normal);
+    if (d.triangle >= 0)
+      push(static_cast<int>(i), (PART_CLEAR - d.distance) * d.normal);
   }
   const std::vector<int> through = skin->faces_through(x, triangles);
   violations += through.size();
   std::vector<Triangle> crossing;
-  for (int f : through) crossing.push_back(triangles[f]);
+  for (int f : through)
+    crossing.push_back(triangles[f]);
   for (const collision::FaceContact& c :
        skin->face_contacts(x, crossing, PART_STEP)) { // skin that shows through between particles
-    if (c.distance >= PART_CLEAR) continue;
+    if (c.distance >= PART_CLEAR)
+      continue;
     const double share = c.barycentric.squaredNorm();
     for (int k = 0; k < 3; ++k)
       push(crossing[c.triangle][k],
@@ -115,7 +125,8 @@ std::size_t PenetrationResolver::push_out_of_body(const std::vector<Vec3>& x,
         out[triangles[f][2]].isZero())
       for (int i : triangles[f])
         push(i, UNTANGLE_STEP * skin->signed_distance(x[i], PART_REACH).normal);
-  for (std::size_t i = 0; i < x.size(); ++i) move[i] += out[i];
+  for (std::size_t i = 0; i < x.size(); ++i)
+    move[i] += out[i];
   return violations;
 }
 
@@ -138,8 +149,10 @@ std::size_t PenetrationResolver::resolve_all(int max_rounds, int& rounds) {
       least = count;
       position = x;
     }
-    if (count == 0) break;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += move[i];
+    if (count == 0)
+      break;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] += move[i];
   }
   return least;
 }
@@ -162,7 +175,8 @@ bool PenetrationResolver::resolve_initial(std::size_t violations) {
 
 bool PenetrationResolver::resolve_residual() {
   const cloth::BodyContactEffect* contact = m_cloth.body_contact();
-  if (!contact || m_state.partings >= MAX_PARTINGS) return false;
+  if (!contact || m_state.partings >= MAX_PARTINGS)
+    return false;
   const std::size_t through = contact->n_crossing();
   if (through == 0 || static_cast<double>(through) >
                           MOST_IN_FLIGHT * static_cast<double>(m_cloth.mesh().triangles.size()))

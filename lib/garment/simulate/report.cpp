@@ -30,7 +30,8 @@ std::string unclean_text(const io::Json& quality) {
 
 std::string unclean_frames_text(const io::Json& motion) {
   int frames = 0;
-  for (const char* count : AUDITED) frames = std::max(frames, motion[count]["frames"].get<int>());
+  for (const char* count : AUDITED)
+    frames = std::max(frames, motion[count]["frames"].get<int>());
   const auto most = [&](int k) { return motion[AUDITED[k]]["most"].dump(); };
   return "at rest in the end, but of " + motion["frames"].dump() + " frames before " +
          std::to_string(frames) + " are not clean: at most " +
@@ -74,7 +75,8 @@ void add_earlier(const DrapeReport& earlier, DrapeReport& report) {
   for (const EffectReport& before : earlier.effects) {
     const auto same = std::find_if(report.effects.begin(), report.effects.end(),
                                    [&](const EffectReport& e) { return e.name == before.name; });
-    if (same == report.effects.end()) continue;
+    if (same == report.effects.end())
+      continue;
     same->calls += before.calls;
     same->wall_s += before.wall_s;
     if (before.active && !same->active) { // as sewing, which ends with the first drape
@@ -86,8 +88,10 @@ void add_earlier(const DrapeReport& earlier, DrapeReport& report) {
   for (const auto& [name, wall] : report.phases) {
     const auto same = std::find_if(phases.begin(), phases.end(),
                                    [&, n = name](const auto& p) { return p.first == n; });
-    if (same != phases.end()) same->second += wall;
-    else phases.emplace_back(name, wall);
+    if (same != phases.end())
+      same->second += wall;
+    else
+      phases.emplace_back(name, wall);
   }
   report.phases = std::move(phases);
   report.repairs.insert(report.repairs.begin(), earlier.repairs.begin(), earlier.repairs.end());
@@ -95,7 +99,8 @@ void add_earlier(const DrapeReport& earlier, DrapeReport& report) {
 
 io::Json mesh_levels_json(const MeshLevels& levels) {
   io::Json out = {{"meshes", levels.meshes}};
-  if (!levels.why.empty()) out["why"] = levels.why;
+  if (!levels.why.empty())
+    out["why"] = levels.why;
   if (levels.coarse_particles > 0)
     out["coarse"] = {{"edge_m", levels.coarse_edge_m},
                      {"particles", levels.coarse_particles},
@@ -112,7 +117,8 @@ std::string quantised_hash(const Garment& garment) {
   std::vector<long> cells;
   cells.reserve(garment.position.size() * 3);
   for (const Vec3& p : garment.position)
-    for (int k = 0; k < 3; ++k) cells.push_back(std::lround(p[k] * 1e5));
+    for (int k = 0; k < 3; ++k)
+      cells.push_back(std::lround(p[k] * 1e5));
   return io::sha256({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(long)});
 }
 
@@ -139,11 +145,13 @@ io::Json report_json(const DrapeReport& report, const std::string& tool) {
                               {"calls", e.calls},
                               {"wall_s", e.wall_s}});
   out["phases"] = io::Json::object();
-  for (const auto& [name, wall] : report.phases) out["phases"][name] = {{"wall_s", wall}};
+  for (const auto& [name, wall] : report.phases)
+    out["phases"][name] = {{"wall_s", wall}};
   out["solver"] = report.solver;
   out["quality"] = report.quality;
   out["repairs"] = report.repairs;
-  if (report.levels.meshes > 0) out["levels"] = mesh_levels_json(report.levels);
+  if (report.levels.meshes > 0)
+    out["levels"] = mesh_levels_json(report.levels);
   out["settings"] = settings_json(report.settings);
   return out;
 }

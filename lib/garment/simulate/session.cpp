@@ -58,13 +58,16 @@ void DrapeSession::begin() {
   m_begun = true;
   Garment& garment = m_context.cloth.garment();
   const bool unsewn = garment.particle_of.empty();
-  if (unsewn) unsew(garment);
+  if (unsewn)
+    unsew(garment);
   m_context.cloth.choose_effects();
-  if (m_move.moves()) m_context.telemetry.activate("body_motion", "the body moves");
+  if (m_move.moves())
+    m_context.telemetry.activate("body_motion", "the body moves");
   start_outside_body(unsewn);
   m_context.disturbed =
       unsewn || m_context.body.state().scale < 1 || m_start.hold_sleeve_ends || m_start.relax_first;
-  if (!unsewn && m_context.disturbed) m_context.supports.find_sleeve_ends();
+  if (!unsewn && m_context.disturbed)
+    m_context.supports.find_sleeve_ends();
   m_index = unsewn ? 0 : INFLATE_INDEX;
 }
 
@@ -73,7 +76,8 @@ void DrapeSession::begin() {
 /// in, since between thighs that touch there is no room for a seam to close.
 void DrapeSession::start_outside_body(bool unsewn) {
   CollisionBody& body = m_context.body;
-  if (!body.has_skin()) return;
+  if (!body.has_skin())
+    return;
   const PhaseTimer timer(m_context.telemetry, "prepare body");
   const Garment& garment = m_context.cloth.garment();
   const bool sewn_on_legs = unsewn && !placed_on(garment, "leg").empty();
@@ -83,8 +87,10 @@ void DrapeSession::start_outside_body(bool unsewn) {
                (body.state().arms_aside ? ExtremityHulls::HANDS : 0u));
   body.put_arms_aside();
   const std::size_t violations = m_context.resolver.count_in_body();
-  if (violations == 0 && sewn_on_legs) body.draw_in(SEW_LEG_SCALE);
-  if (violations == 0 || (!unsewn && m_context.resolver.resolve_initial(violations))) return;
+  if (violations == 0 && sewn_on_legs)
+    body.draw_in(SEW_LEG_SCALE);
+  if (violations == 0 || (!unsewn && m_context.resolver.resolve_initial(violations)))
+    return;
   if (m_start.around_body) {
     m_context.telemetry.add_repair("start: " + std::to_string(violations) +
                                    " vertices or faces in the body, left to contact");
@@ -99,7 +105,8 @@ void DrapeSession::start_outside_body(bool unsewn) {
       least = count;
       best = scale;
     }
-    if (count == 0) break;
+    if (count == 0)
+      break;
   }
   body.draw_in(best);
   m_context.telemetry.add_repair(
@@ -112,7 +119,8 @@ void DrapeSession::close_seams() {
   m_context.resolver.untangle();
   if (m_start.around_body && m_context.body.collider()) { // cloth drawn apart may be in the body
     const std::size_t violations = m_context.resolver.count_in_body();
-    if (violations > 0) m_context.resolver.resolve_initial(violations);
+    if (violations > 0)
+      m_context.resolver.resolve_initial(violations);
   }
   m_context.build_cloth(false);
 }
@@ -122,7 +130,8 @@ void DrapeSession::enter(std::size_t index, bool resumed) {
   m_phase = m_plan[index];
   if (*m_phase->name())
     m_timer = std::make_unique<PhaseTimer>(m_context.telemetry, m_phase->name());
-  if (index == RESETTLE_INDEX && !resumed) m_settle.forget_progress();
+  if (index == RESETTLE_INDEX && !resumed)
+    m_settle.forget_progress();
   m_phase->begin(m_context, resumed);
 }
 
@@ -140,10 +149,13 @@ bool DrapeSession::advance_to_next_phase() {
     return true;
   }
   for (; m_index < m_plan.size(); ++m_index) {
-    if (m_index == INFLATE_INDEX) close_seams();
+    if (m_index == INFLATE_INDEX)
+      close_seams();
     const bool is_second_rest = m_index == RESETTLE_INDEX;
-    if (is_second_rest && !m_move.state(m_context).over) continue;
-    if (!m_plan[m_index]->is_needed(m_context)) continue;
+    if (is_second_rest && !m_move.state(m_context).over)
+      continue;
+    if (!m_plan[m_index]->is_needed(m_context))
+      continue;
     enter(m_index, false);
     return true;
   }
@@ -151,9 +163,12 @@ bool DrapeSession::advance_to_next_phase() {
 }
 
 bool DrapeSession::step() {
-  if (!m_begun) begin();
-  if (!m_phase) return advance_to_next_phase();
-  if (m_phase->step(m_context) == PhaseStatus::CONTINUE) return true;
+  if (!m_begun)
+    begin();
+  if (!m_phase)
+    return advance_to_next_phase();
+  if (m_phase->step(m_context) == PhaseStatus::CONTINUE)
+    return true;
   const bool goes_on =
       !stopped() ||
       m_phase == &m_inflate; // a garment that was stopped meanwhile is still let down onto its arms
@@ -168,7 +183,8 @@ DrapeReport DrapeSession::run() {
 
 /// The whole phase, for clients that lead the session themselves.
 void DrapeSession::inflate_now() {
-  if (!m_inflate.is_needed(m_context)) return;
+  if (!m_inflate.is_needed(m_context))
+    return;
   enter(INFLATE_INDEX, false);
   while (m_inflate.step(m_context) == PhaseStatus::CONTINUE) {}
   leave();
@@ -180,7 +196,8 @@ void DrapeSession::start_live(bool loaded) {
   start_outside_body(false);
   m_context.build_cloth(false);
   inflate_now();
-  if (loaded) m_context.cloth.add_load();
+  if (loaded)
+    m_context.cloth.add_load();
 }
 
 bool DrapeSession::advance(const StepRequest& request) {
@@ -194,7 +211,8 @@ void DrapeSession::set_positions(const std::vector<Vec3>& x) {
 
 void DrapeSession::rebuild_cloth(bool loaded) {
   m_context.build_cloth(false);
-  if (loaded) m_context.cloth.add_load();
+  if (loaded)
+    m_context.cloth.add_load();
 }
 
 void DrapeSession::forget_simulated_time() {
@@ -228,7 +246,8 @@ void DrapeSession::push_apart(int max_push_steps) {
   const StepRequest request{.h = m_context.settings.time_step_s};
   for (int k = 0; k < max_push_steps && !stopped(); ++k) {
     const cloth::BodyContactEffect* contact = m_context.cloth.body_contact();
-    if (!contact || contact->n_crossing() == 0) break;
+    if (!contact || contact->n_crossing() == 0)
+      break;
     advance(request);
   }
   m_context.cloth.tear_down();
@@ -248,7 +267,8 @@ bool DrapeSession::offer() {
 }
 
 bool DrapeSession::offer(int count, int& last) {
-  if (!takes_checkpoints() || count - last < m_checkpoints.every_steps) return false;
+  if (!takes_checkpoints() || count - last < m_checkpoints.every_steps)
+    return false;
   last = count;
   take_checkpoint();
   return true;
@@ -273,8 +293,10 @@ void DrapeSession::take_checkpoint() {
                                .layers = {},
                                .levels = {},
                                .file = {}};
-    if (m_checkpoints.layers) checkpoint.layers = *m_checkpoints.layers;
-    if (m_checkpoints.levels) checkpoint.levels = *m_checkpoints.levels;
+    if (m_checkpoints.layers)
+      checkpoint.layers = *m_checkpoints.layers;
+    if (m_checkpoints.levels)
+      checkpoint.levels = *m_checkpoints.levels;
     write_checkpoint(m_checkpoints.file, checkpoint);
   }
   rebuild(m_context, *m_phase, state.contact, m_phase->keeps_velocity());
@@ -288,13 +310,15 @@ DrapeState DrapeSession::save() const {
   state.stepper = m_context.stepper.state();
   state.resolver = m_context.resolver.state();
   state.supports = m_context.supports.state();
-  if (m_context.cloth.body_contact()) state.contact = m_context.cloth.body_contact()->memory();
+  if (m_context.cloth.body_contact())
+    state.contact = m_context.cloth.body_contact()->memory();
   state.sew = m_sew.state();
   state.inflate = m_inflate.state();
   if (state.phase == DrapePhase::INFLATE)
     state.inflate.skin = m_context.body.collider()->mesh().positions;
   state.settle = m_settle.state();
-  if (state.settle.dynamic_steps > 0) state.settle.velocity = m_context.cloth.v();
+  if (state.settle.dynamic_steps > 0)
+    state.settle.velocity = m_context.cloth.v();
   state.move = m_move.state(m_context);
   state.fit = m_context.fit.state();
   return state;
@@ -317,7 +341,8 @@ void DrapeSession::restore(const DrapeCheckpoint& from) {
   m_context.telemetry.add_elapsed_before(from.report.wall_s);
   m_checkpoints.every_steps = from.every_steps;
   m_checkpoints.renew = true;
-  if (state.phase == DrapePhase::START) return;
+  if (state.phase == DrapePhase::START)
+    return;
   m_begun = true;
   m_context.disturbed = state.disturbed;
   m_context.stepper.restore(state.stepper);
@@ -340,14 +365,16 @@ void DrapeSession::restore(const DrapeCheckpoint& from) {
 
 void DrapeSession::restore_body(const DrapeCheckpoint& from) {
   CollisionBody& body = m_context.body;
-  if (!body.has_skin()) return;
+  if (!body.has_skin())
+    return;
   const PhaseTimer timer(m_context.telemetry, "prepare body");
   const DrapeState& state = from.state;
   body.restore(state.body, m_context.cloth.garment());
   if (state.move.frame > 0) {
     const std::vector<Vec3> skin = m_move.moves()->skin(state.move.frame - 1);
     body.collider()->set_positions(body.collision_surface(skin));
-    if (!state.move.over) return;
+    if (!state.move.over)
+      return;
     body.stand_at(skin);
     m_context.stepper.allow_more_steps(state.move.parts);
   } else if (state.body.shrunk || state.body.arms_aside) {

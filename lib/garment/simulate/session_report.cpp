@@ -9,7 +9,9 @@ namespace sloper::garment {
 
 namespace {
 
-io::Json quantiles_json(const double q[3]) { return {{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}}; }
+io::Json quantiles_json(const double q[3]) {
+  return {{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}};
+}
 
 } // namespace
 
@@ -39,7 +41,8 @@ void DrapeSession::write_solver_report() {
   std::vector<int> sorted = state.cg_iterations;
   std::sort(sorted.begin(), sorted.end());
   double sum = 0;
-  for (int n : sorted) sum += n;
+  for (int n : sorted)
+    sum += n;
   const std::size_t n = std::max<std::size_t>(sorted.size(), 1);
   const int p95 = sorted.empty() ? 0 : sorted[(n - 1) * 95 / 100];
   const int max = sorted.empty() ? 0 : sorted.back();

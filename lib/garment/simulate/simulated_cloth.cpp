@@ -32,16 +32,19 @@ void SimulatedCloth::choose_effects() {
 void SimulatedCloth::build(bool open_seams, bool keep_velocity) {
   tear_down();
   m_open_seams = open_seams;
-  if (!keep_velocity) m_velocity.assign(m_garment.position.size(), Vec3::Zero());
+  if (!keep_velocity)
+    m_velocity.assign(m_garment.position.size(), Vec3::Zero());
   m_mesh = std::make_unique<cloth::ClothMesh>(cloth_mesh_of(m_garment));
   m_solver = std::make_unique<cloth::ClothSolver>(*m_mesh, m_garment.position, m_velocity);
-  if (m_settings.solver == 1) m_solver->set_preconditioner(std::make_unique<cloth::BlockJacobi>());
+  if (m_settings.solver == 1)
+    m_solver->set_preconditioner(std::make_unique<cloth::BlockJacobi>());
   if (m_settings.solver == 2)
     m_solver->set_preconditioner(std::make_unique<cloth::Factorisation>());
   m_loaded = false;
   prepare_mesh(*m_mesh, m_garment, m_telemetry.report.effects);
   if (open_seams) {
-    for (cloth::Hinge& hinge : m_mesh->hinges) hinge.stiffness *= SEW_BENDING;
+    for (cloth::Hinge& hinge : m_mesh->hinges)
+      hinge.stiffness *= SEW_BENDING;
     m_mesh->bend_scale = SEW_BENDING;
   }
   for (EffectStage stage :
@@ -62,14 +65,16 @@ void SimulatedCloth::add_stage(EffectStage stage) {
 }
 
 void SimulatedCloth::tear_down() {
-  if (!m_solver) return;
+  if (!m_solver)
+    return;
   report_effects();
   m_handles = {};
   m_solver.reset();
 }
 
 void SimulatedCloth::add_load() {
-  if (m_loaded) return;
+  if (m_loaded)
+    return;
   m_loaded = true;
   add_stage(EffectStage::LOAD);
 }
@@ -81,10 +86,12 @@ void SimulatedCloth::replace_rest_shape() {
   prepare_mesh(*m_mesh, m_garment, m_telemetry.report.effects);
   for (const auto& effect : m_solver->effects())
     all_take_it = effect->set_rest(*m_mesh) && all_take_it;
-  if (all_take_it) return;
+  if (all_take_it)
+    return;
   const bool loaded = m_loaded;
   build(m_open_seams);
-  if (loaded) add_load();
+  if (loaded)
+    add_load();
 }
 
 void SimulatedCloth::report_effects() {
@@ -100,7 +107,8 @@ void SimulatedCloth::report_effects() {
       r.calls += m_handles.body_contact->friction_calls;
     else if (r.name == "layers" && r.active && m_handles.self_contact)
       r.calls += m_handles.self_contact->calls;
-    else if (r.name == "damping" && r.active) r.calls = m_telemetry.report.steps;
+    else if (r.name == "damping" && r.active)
+      r.calls = m_telemetry.report.steps;
   }
 }
 
@@ -110,20 +118,24 @@ void SimulatedCloth::positions_changed() {
 }
 
 void SimulatedCloth::refresh_contacts() {
-  if (m_handles.body_contact) m_handles.body_contact->refresh();
-  if (m_handles.self_contact) m_handles.self_contact->refresh();
+  if (m_handles.body_contact)
+    m_handles.body_contact->refresh();
+  if (m_handles.self_contact)
+    m_handles.self_contact->refresh();
 }
 
 double SimulatedCloth::tension_ratio() const {
   double pull = 0;
-  for (const cloth::EdgeSpring& s : m_mesh->springs) pull += s.stiffness * s.rest_length;
+  for (const cloth::EdgeSpring& s : m_mesh->springs)
+    pull += s.stiffness * s.rest_length;
   const double mass = std::accumulate(m_mesh->mass.begin(), m_mesh->mass.end(), 0.0);
   return pull / static_cast<double>(m_mesh->springs.size()) /
          (mass * units::GRAVITY / m_mesh->n_particles);
 }
 
 std::string SimulatedCloth::crossing_text() const {
-  if (!m_handles.body_contact || m_handles.body_contact->n_crossing() == 0) return "";
+  if (!m_handles.body_contact || m_handles.body_contact->n_crossing() == 0)
+    return "";
   return ", " + std::to_string(m_handles.body_contact->n_crossing()) +
          " faces through the skin, one at " + place_text(m_handles.body_contact->crossing_place());
 }

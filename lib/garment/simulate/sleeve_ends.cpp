@@ -24,7 +24,8 @@ struct Sleeve {
 std::vector<Sleeve> sleeves_of(const Bind& bind) {
   std::vector<Sleeve> sleeves;
   for (std::size_t k = 0; k < bind.frames.size(); ++k) {
-    if (!bind.frames[k].starts_with("forearm")) continue;
+    if (!bind.frames[k].starts_with("forearm"))
+      continue;
     Sleeve sleeve;
     std::vector<double> height; // m from the wrist to the elbow
     double lowest = 1e300;
@@ -35,9 +36,11 @@ std::vector<Sleeve> sleeves_of(const Bind& bind) {
           height.push_back(w.z * bind.lengths_m[k]);
           lowest = std::min(lowest, height.back());
         }
-    if (sleeve.forearm.empty() || lowest < -PAST_WRIST) continue;
+    if (sleeve.forearm.empty() || lowest < -PAST_WRIST)
+      continue;
     for (std::size_t i = 0; i < height.size(); ++i)
-      if (height[i] < lowest + HELD) sleeve.end.push_back(sleeve.forearm[i]);
+      if (height[i] < lowest + HELD)
+        sleeve.end.push_back(sleeve.forearm[i]);
     sleeves.push_back(std::move(sleeve));
   }
   return sleeves;
@@ -45,13 +48,15 @@ std::vector<Sleeve> sleeves_of(const Bind& bind) {
 
 Vec3 mean_of(const std::vector<Vec3>& x, const std::vector<int>& particles) {
   Vec3 sum = Vec3::Zero();
-  for (int i : particles) sum += x[i];
+  for (int i : particles)
+    sum += x[i];
   return sum / static_cast<double>(particles.size());
 }
 
 std::vector<char> flags_of(const std::vector<int>& particles, std::size_t n) {
   std::vector<char> flags(n, 0);
-  for (int i : particles) flags[i] = 1;
+  for (int i : particles)
+    flags[i] = 1;
   return flags;
 }
 
@@ -60,7 +65,8 @@ std::vector<char> flags_of(const std::vector<int>& particles, std::size_t n) {
 std::vector<cloth::Pin> hold_sleeve_ends(const Garment& garment) {
   std::vector<cloth::Pin> pins;
   for (const Sleeve& sleeve : sleeves_of(garment.bind))
-    for (int i : sleeve.end) pins.push_back({i, garment.position[i], STIFFNESS, Vec3::Zero()});
+    for (int i : sleeve.end)
+      pins.push_back({i, garment.position[i], STIFFNESS, Vec3::Zero()});
   return pins;
 }
 

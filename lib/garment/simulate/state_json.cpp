@@ -45,7 +45,8 @@ void CollisionBody::State::write(io::Json& state) const {
 CollisionBody::State CollisionBody::State::read(const io::Node& node) {
   State state;
   int covered = 0;
-  if (node.has("covered")) covered = node.at("covered").integer();
+  if (node.has("covered"))
+    covered = node.at("covered").integer();
   else if (node.at("mitten").boolean())
     covered = static_cast<int>(ExtremityHulls::HANDS); // older ones: hands alone
   if (covered < 0 || covered > static_cast<int>(ExtremityHulls::ALL_ENDS))
@@ -99,8 +100,10 @@ void TemporarySupports::State::write(io::Json& state) const {
 TemporarySupports::State TemporarySupports::State::read(const io::Node& node,
                                                         std::size_t n_particles) {
   State state;
-  if (node.has("held")) state.held = io::read_flat_points(node.at("held"));
-  if (node.has("tucks")) state.tangles = io::read_integers(node.at("tucks"));
+  if (node.has("held"))
+    state.held = io::read_flat_points(node.at("held"));
+  if (node.has("tucks"))
+    state.tangles = io::read_integers(node.at("tucks"));
   for (int i : state.tangles)
     if (i < 0 || static_cast<std::size_t>(i) >= n_particles)
       node.at("tucks").fail("checkpoint.damaged"_id, "does not belong to this garment");
@@ -157,9 +160,11 @@ void SettlePhase::State::write(io::Json& state) const {
   state["unmoved"] = unmoved;
   state["pushed"] = pushed;
   state["best_at"] = best_residual_step;
-  if (best_residual < std::numeric_limits<double>::infinity()) state["best"] = best_residual;
+  if (best_residual < std::numeric_limits<double>::infinity())
+    state["best"] = best_residual;
   state["start_height"] = start_height;
-  if (release_height_m) state["thawed_at"] = *release_height_m;
+  if (release_height_m)
+    state["thawed_at"] = *release_height_m;
   state["looked_at"] = probe_step;
   state["looked_from"] = io::flat_points(probe_position);
   state["free_steps"] = dynamic_steps;
@@ -172,10 +177,13 @@ SettlePhase::State SettlePhase::State::read(const io::Node& node, std::size_t n_
   state.calm = node.at("calm").integer();
   state.pushed = node.at("pushed").integer();
   state.best_residual_step = node.at("best_at").integer();
-  if (node.has("unmoved")) state.unmoved = node.at("unmoved").integer();
-  if (node.has("best")) state.best_residual = node.at("best").number();
+  if (node.has("unmoved"))
+    state.unmoved = node.at("unmoved").integer();
+  if (node.has("best"))
+    state.best_residual = node.at("best").number();
   state.start_height = io::read_numbers(node.at("start_height"));
-  if (node.has("thawed_at")) state.release_height_m = node.at("thawed_at").number();
+  if (node.has("thawed_at"))
+    state.release_height_m = node.at("thawed_at").number();
   if (node.has("looked_at")) { // older ones: from here on
     state.probe_step = node.at("looked_at").integer();
     state.probe_position = io::read_flat_points(node.at("looked_from"));

@@ -50,7 +50,8 @@ bool StepController::note(const cloth::StepResult& result, const std::string& wh
   m_state.last = result;
   m_state.cg_iterations.push_back(result.cg.iterations);
   m_state.solves += result.newton_iterations;
-  if (result.finite) return true;
+  if (result.finite)
+    return true;
   m_state.rejected.push_back(what + ": not finite, undone");
   m_cloth.solver().stop();
   stop(StopReason::NOT_FINITE);
@@ -63,18 +64,22 @@ bool StepController::advance(const StepRequest& request) {
   ++report.steps;
   report.simulated_s += request.h;
   m_state.last_h = request.h;
-  if (!note(result, "step " + std::to_string(report.steps))) return false;
+  if (!note(result, "step " + std::to_string(report.steps)))
+    return false;
   check_time();
   const int limit = m_step_limit + (m_patient ? m_settings.extra_steps : 0);
-  if (!m_stopped && report.steps >= limit) stop(StopReason::STEP_LIMIT);
+  if (!m_stopped && report.steps >= limit)
+    stop(StopReason::STEP_LIMIT);
   return !m_stopped;
 }
 
 void StepController::check_time() {
-  if (m_stopped) return;
+  if (m_stopped)
+    return;
   if (m_settings.max_seconds > 0 && m_telemetry.elapsed() > m_settings.max_seconds)
     stop(StopReason::TIME_LIMIT);
-  else if (m_telemetry.reporter.stop_requested()) stop(StopReason::INTERRUPTED);
+  else if (m_telemetry.reporter.stop_requested())
+    stop(StopReason::INTERRUPTED);
 }
 
 void StepController::stop(StopReason reason) {

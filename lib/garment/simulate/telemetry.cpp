@@ -20,8 +20,10 @@ void Telemetry::add_phase_time(const std::string& phase, double wall_s) {
   auto& phases = report.phases;
   const auto same =
       std::find_if(phases.begin(), phases.end(), [&](const auto& p) { return p.first == phase; });
-  if (same == phases.end()) phases.emplace_back(phase, wall_s);
-  else same->second += wall_s; // a phase that comes twice, or a run that goes on from a checkpoint
+  if (same == phases.end())
+    phases.emplace_back(phase, wall_s);
+  else
+    same->second += wall_s; // a phase that comes twice, or a run that goes on from a checkpoint
 }
 
 void Telemetry::activate(const char* effect, const char* why) {
@@ -41,7 +43,9 @@ PhaseTimer::PhaseTimer(Telemetry& telemetry, std::string name)
   telemetry.reporter.info(m_name + " ...");
 }
 
-std::string place_text(const Vec3& p) { return sloper::place_text(p.x(), p.y(), p.z()) + " m"; }
+std::string place_text(const Vec3& p) {
+  return sloper::place_text(p.x(), p.y(), p.z()) + " m";
+}
 
 std::string millimetres_text(double m) {
   const long tenths = std::lround(m * 1e4);

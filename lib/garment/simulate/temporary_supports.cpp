@@ -49,7 +49,8 @@ void TemporarySupports::forget_effects() {
 }
 
 void TemporarySupports::remove_temporary_effect(const cloth::Effect*& effect) {
-  if (!effect) return;
+  if (!effect)
+    return;
   const std::unique_ptr<cloth::Effect> taken = m_cloth.solver().remove(*effect);
   effect = nullptr;
   for (EffectReport& r : m_telemetry.report.effects)
@@ -60,7 +61,8 @@ void TemporarySupports::remove_temporary_effect(const cloth::Effect*& effect) {
 }
 
 void TemporarySupports::add_inflation_pressure() {
-  if (m_pressure || !m_cloth.is_active("sewing") || !may_help("pressure")) return;
+  if (m_pressure || !m_cloth.is_active("sewing") || !may_help("pressure"))
+    return;
   if (!m_cloth.is_active("pressure"))
     m_telemetry.activate("pressure", "for a moment after sewing: it turns out dents");
   const double weight = material_of(m_cloth.garment(), "").density_kg_m2 * units::GRAVITY;
@@ -68,17 +70,21 @@ void TemporarySupports::add_inflation_pressure() {
                                                                 INFLATION_WEIGHTS * weight);
 }
 
-void TemporarySupports::remove_inflation_pressure() { remove_temporary_effect(m_pressure); }
+void TemporarySupports::remove_inflation_pressure() {
+  remove_temporary_effect(m_pressure);
+}
 
 void TemporarySupports::find_sleeve_ends() {
-  if (!may_help("pins")) return;
+  if (!may_help("pins"))
+    return;
   for (const cloth::Pin& pin : hold_sleeve_ends(m_cloth.garment()))
     m_state.held.push_back(pin.target);
 }
 
 void TemporarySupports::find_tangles() {
   m_state.tangles.clear();
-  if (!m_cloth.is_active("self_contact")) return;
+  if (!m_cloth.is_active("self_contact"))
+    return;
   const std::vector<Vec3>& position = m_cloth.garment().position;
   const std::vector<Triangle> triangles = m_cloth.garment().particle_triangles();
   const collision::TriangleTree tree(position, triangles);
@@ -87,14 +93,17 @@ void TemporarySupports::find_tangles() {
   std::vector<char> near(position.size(), 0);
   for (const auto& pair : crossing)
     for (int f : pair)
-      for (int i : triangles[f]) near[i] = 1;
+      for (int i : triangles[f])
+        near[i] = 1;
   grow(near, triangles, static_cast<int>(std::lround(TANGLE_REACH / edge)));
   std::vector<Triangle> patches;
   for (const Triangle& t : triangles)
-    if (near[t[0]] && near[t[1]] && near[t[2]]) patches.push_back(t);
+    if (near[t[0]] && near[t[1]] && near[t[2]])
+      patches.push_back(t);
   const std::vector<int> patch = connected_components(near.size(), patches);
   std::map<int, int> pairs; // by patch
-  for (const auto& pair : crossing) ++pairs[patch[triangles[pair[0]][0]]];
+  for (const auto& pair : crossing)
+    ++pairs[patch[triangles[pair[0]][0]]];
   for (std::size_t i = 0; i < near.size(); ++i)
     if (near[i] && pairs[patch[i]] * edge > TANGLE_LENGTH)
       m_state.tangles.push_back(static_cast<int>(i));
@@ -108,16 +117,19 @@ void TemporarySupports::apply() {
   if (!m_state.held.empty()) {
     std::vector<cloth::Pin> pins = hold_sleeve_ends(m_cloth.garment());
     if (!pins.empty() && pins.size() == m_state.held.size()) {
-      for (std::size_t k = 0; k < pins.size(); ++k) pins[k].target = m_state.held[k];
+      for (std::size_t k = 0; k < pins.size(); ++k)
+        pins[k].target = m_state.held[k];
       if (!m_cloth.is_active("pins"))
         m_telemetry.activate(
             "pins", "sleeve ends are held at the wrists until the cloth above has found its folds");
       m_hold = &m_cloth.solver().emplace<cloth::PinsEffect>(std::move(pins));
     }
   }
-  if (m_state.tangles.empty() || !m_cloth.self_contact()) return;
+  if (m_state.tangles.empty() || !m_cloth.self_contact())
+    return;
   std::vector<char> passes(m_cloth.garment().position.size(), 0);
-  for (int i : m_state.tangles) passes[i] = 1;
+  for (int i : m_state.tangles)
+    passes[i] = 1;
   m_cloth.self_contact()->let_pass(std::move(passes));
 }
 
@@ -127,7 +139,8 @@ void TemporarySupports::release_sleeve_ends() {
 }
 
 void TemporarySupports::close_tangles() {
-  if (m_state.tangles.empty() || !m_cloth.self_contact()) return;
+  if (m_state.tangles.empty() || !m_cloth.self_contact())
+    return;
   m_state.tangles.clear();
   m_cloth.self_contact()->let_pass({});
   m_resolver.untangle_in_flight();

@@ -31,7 +31,7 @@ void add_dart(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only(
       {"edit", "panel", "edge", "at", "width", "tip", "name", "center", "length", "along"});
   const int index = panel_named(pattern, node.at("panel"));
-  const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
+  const Panel panel = pattern.panels[index];
   const double width = node.at("width").number() * unit;
   if (!(width > 1e-3))
     node.at("width").fail("edit.too-small"_id,
@@ -115,16 +115,16 @@ void rotate_dart(Pattern& pattern, const io::Node& node) {
   if (seam->a.size() != 1 || seam->b.size() != 1 || seam->a[0].panel != seam->b[0].panel)
     node.at("dart").fail("edit.bad-dart"_id, "seam " + name + " is not a dart");
   const int index = seam->a[0].panel;
-  const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
-  const int n = static_cast<int>(panel.loops[0].size());
+  const Panel panel = pattern.panels[index];
+  const int n = std::ssize(panel.loops[0]);
   int leg = seam->a[0].edge, second = seam->b[0].edge;
-  if ((second + 1) % n == leg) std::swap(leg, second);
+  if ((second + 1) % n == leg)
+    std::swap(leg, second);
   if (leg >= n || second >= n || (leg + 1) % n != second)
     node.at("dart").fail("edit.bad-dart"_id, "seam " + name + " is not a dart at an edge",
                          "only darts that end in the outline can be rotated");
   std::vector<Piece> pieces = pieces_of(panel);
-  const Piece one = pieces[static_cast<std::size_t>(leg)],
-              two = pieces[static_cast<std::size_t>(second)];
+  const Piece one = pieces[leg], two = pieces[second];
   const Vec2 tip = end_of(one), a = start_of(one), b = end_of(two);
   if (std::abs((a - tip).norm() - (b - tip).norm()) > 1e-3)
     node.at("dart").fail("edit.bad-dart"_id,
@@ -138,7 +138,8 @@ void rotate_dart(Pattern& pattern, const io::Node& node) {
   const std::size_t opening = corner_at(pieces, wanted, fraction(node, "at"));
   const auto find = [&](int edge) {
     std::size_t k = 0;
-    while (pieces[k].origin.edge != edge) ++k;
+    while (pieces[k].origin.edge != edge)
+      ++k;
     return k;
   };
   const std::size_t first = find(leg), last = (first + 1) % pieces.size(),
@@ -150,7 +151,8 @@ void rotate_dart(Pattern& pattern, const io::Node& node) {
   // meet.
   const auto total = [](const std::vector<Piece>& list) {
     double sum = 0;
-    for (const Piece& piece : list) sum += length(piece.edge.path);
+    for (const Piece& piece : list)
+      sum += length(piece.edge.path);
     return sum;
   };
   const double between =
@@ -159,9 +161,12 @@ void rotate_dart(Pattern& pattern, const io::Node& node) {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(all_but ? -between : between).toRotationMatrix();
   for (Piece& piece : all_but ? still : turned)
     for (Segment& s : piece.edge.path)
-      for (Vec2& p : s.p) p = snapped(Vec2(tip + turn * (p - tip)));
-  if (all_but) still.back().edge.path.back().p[3] = b;
-  else turned.front().edge.path.front().p[0] = a;
+      for (Vec2& p : s.p)
+        p = snapped(Vec2(tip + turn * (p - tip)));
+  if (all_but)
+    still.back().edge.path.back().p[3] = b;
+  else
+    turned.front().edge.path.front().p[0] = a;
   Piece new_one = straight(one.edge.name, end_of(turned.back()), tip),
         new_two = straight(two.edge.name, tip, start_of(still.front()));
   new_one.origin = one.origin;

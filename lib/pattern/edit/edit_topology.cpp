@@ -27,9 +27,12 @@ std::vector<std::pair<std::size_t, double>> crossings(const std::vector<Piece>& 
     for (int i = 0; i < N; ++i) {
       double low = static_cast<double>(i) / N, high = static_cast<double>(i + 1) / N;
       double v0 = value(low), v1 = value(high);
-      if (std::abs(v0) < 1e-9) v0 = 0;
-      if (std::abs(v1) < 1e-9) v1 = 0;
-      if (v0 * v1 > 0 || v1 == 0) continue; // an end on the line belongs to the next stretch
+      if (std::abs(v0) < 1e-9)
+        v0 = 0;
+      if (std::abs(v1) < 1e-9)
+        v1 = 0;
+      if (v0 * v1 > 0 || v1 == 0)
+        continue; // an end on the line belongs to the next stretch
       if (v0 != 0)
         for (int turn = 0; turn < 60; ++turn) {
           const double middle = 0.5 * (low + high);
@@ -51,7 +54,7 @@ std::vector<std::pair<std::size_t, double>> crossings(const std::vector<Piece>& 
 void split_panel(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "from", "to", "names", "sew"});
   const int index = panel_named(pattern, node.at("panel"));
-  const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
+  const Panel panel = pattern.panels[index];
   const Vec2 from = node.at("from").vec2() * unit, to = node.at("to").vec2() * unit;
   if (!((to - from).norm() > 1e-4))
     node.at("to").fail("edit.no-direction"_id, "the line has no direction");
@@ -68,18 +71,23 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
     hits[0].second /= hits[1].second; // of what is left of the piece
   const std::size_t n_between = pieces.size();
   const std::size_t k0 = corner_at(pieces, hits[0].first, hits[0].second);
-  if (pieces.size() > n_between && k1 > hits[0].first) ++k1;
-  if (k1 >= pieces.size()) k1 = 0;
+  if (pieces.size() > n_between && k1 > hits[0].first)
+    ++k1;
+  if (k1 >= pieces.size())
+    k1 = 0;
   std::vector<Piece> one = walk(pieces, k0, k1), two = walk(pieces, k1, k0);
   if (one.empty() || two.empty())
     node.fail("edit.line-does-not-cut"_id, "the line runs along an edge of " + panel.name,
               "give a line through its inside");
   double left = 0;
-  for (const Piece& piece : one) left += side(piece.edge.path[0].at(0.5), from, to - from);
-  if (left < 0) std::swap(one, two);
+  for (const Piece& piece : one)
+    left += side(piece.edge.path[0].at(0.5), from, to - from);
+  if (left < 0)
+    std::swap(one, two);
   std::string names[2] = {panel.name + "_1", panel.name + "_2"};
   if (node.has("names"))
-    for (std::size_t k = 0; k < 2; ++k) names[k] = node.at("names").at(k).string();
+    for (std::size_t k = 0; k < 2; ++k)
+      names[k] = node.at("names").at(k).string();
   for (const std::string& name : names)
     if (name.empty() || names[0] == names[1] ||
         (pattern.find_panel(name) >= 0 && name != panel.name))
@@ -114,7 +122,7 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
           return false;
       return true;
     });
-  const int other = static_cast<int>(pattern.panels.size());
+  const int other = std::ssize(pattern.panels);
   const int edge_one = static_cast<int>(one.size()) - 1,
             edge_two = static_cast<int>(two.size()) - 1;
   replace_panel(pattern, index, std::move(both), node);
@@ -129,7 +137,7 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
 void add_point(Pattern& pattern, const io::Node& node) {
   node.allow_only({"edit", "panel", "edge", "at", "names"});
   const int index = panel_named(pattern, node.at("panel"));
-  const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
+  const Panel panel = pattern.panels[index];
   const std::size_t k = static_cast<std::size_t>(outer_edge(panel, node, "edge"));
   const double at = fraction(node, "at"), total = length(panel.edge(static_cast<int>(k)).path);
   if (std::min(at, 1 - at) * total < AT_CORNER)
@@ -137,7 +145,8 @@ void add_point(Pattern& pattern, const io::Node& node) {
   std::vector<Piece> pieces = pieces_of(panel);
   corner_at(pieces, k, at);
   if (node.has("names"))
-    for (std::size_t i = 0; i < 2; ++i) pieces[k + i].edge.name = node.at("names").at(i).string();
+    for (std::size_t i = 0; i < 2; ++i)
+      pieces[k + i].edge.name = node.at("names").at(i).string();
   replace_panel(pattern, index, {rebuilt(panel, pieces, all_holes(panel))}, node);
 }
 
@@ -158,17 +167,14 @@ void join_panels(Pattern& pattern, const io::Node& node) {
                          "split the edges first");
   Run a = seam->a[0], b = seam->b[0];
   if (a.panel == b.panel)
-    node.at("seam").fail("edit.cannot-join"_id,
-                         "seam " + name + " joins panel " +
-                             pattern.panels[static_cast<std::size_t>(a.panel)].name + " to itself");
+    node.at("seam").fail("edit.cannot-join"_id, "seam " + name + " joins panel " +
+                                                    pattern.panels[a.panel].name + " to itself");
   if ((a.from < a.to) == (b.from < b.to))
     node.at("seam").fail("edit.cannot-join"_id,
                          "seam " + name +
                              " joins the outside of one panel to the inside of the other");
-  const Panel p = pattern.panels[static_cast<std::size_t>(a.panel)],
-              q = pattern.panels[static_cast<std::size_t>(b.panel)];
-  if (a.edge >= static_cast<int>(p.loops[0].size()) ||
-      b.edge >= static_cast<int>(q.loops[0].size()))
+  const Panel p = pattern.panels[a.panel], q = pattern.panels[b.panel];
+  if (a.edge >= std::ssize(p.loops[0]) || b.edge >= std::ssize(q.loops[0]))
     node.at("seam").fail("edit.cannot-join"_id, "seam " + name + " is on a hole");
   const Path &pa = p.edge(a.edge).path, &pb = q.edge(b.edge).path;
   // q turns and moves so that its edge lies on p's, the other way round.
@@ -205,49 +211,56 @@ void join_panels(Pattern& pattern, const io::Node& node) {
   const int np = static_cast<int>(p.loops[0].size()), nq = static_cast<int>(q.loops[0].size());
   std::vector<std::pair<bool, int>> order; // (from q, edge)
   for (int k = 0; k < np; ++k) {
-    if (k != a.edge) order.push_back({false, k});
+    if (k != a.edge)
+      order.push_back({false, k});
     else
-      for (int i = 1; i < nq; ++i) order.push_back({true, (b.edge + i) % nq});
+      for (int i = 1; i < nq; ++i)
+        order.push_back({true, (b.edge + i) % nq});
   }
   const auto moved = [&](PanelEdge e) {
     for (Segment& s : e.path)
-      for (Vec2& x : s.p) x = map(x);
-    if (p.find_edge(e.name) >= 0) e.name = free_edge_name(p, e.name + "_" + q.name);
+      for (Vec2& x : s.p)
+        x = map(x);
+    if (p.find_edge(e.name) >= 0)
+      e.name = free_edge_name(p, e.name + "_" + q.name);
     return e;
   };
   for (const auto& [other, k] : order) {
-    (other ? new_q : new_p)[static_cast<std::size_t>(k)] = static_cast<int>(out.loops[0].size());
-    out.loops[0].push_back(other ? moved(q.loops[0][static_cast<std::size_t>(k)])
-                                 : p.loops[0][static_cast<std::size_t>(k)]);
+    (other ? new_q : new_p)[k] = static_cast<int>(out.loops[0].size());
+    out.loops[0].push_back(other ? moved(q.loops[0][k]) : p.loops[0][k]);
   }
   for (std::size_t k = 0; k < out.loops[0].size();
        ++k) { // ends meet to the last bit, p's corners stay
     PanelEdge &e = out.loops[0][k], &next = out.loops[0][(k + 1) % out.loops[0].size()];
-    if (order[k].first) e.path.back().p[3] = next.path.front().p[0];
-    else next.path.front().p[0] = e.path.back().p[3];
+    if (order[k].first)
+      e.path.back().p[3] = next.path.front().p[0];
+    else
+      next.path.front().p[0] = e.path.back().p[3];
   }
   int edge = static_cast<int>(out.loops[0].size()), edge_p = np, edge_q = nq;
   for (std::size_t h = 1; h < p.loops.size(); ++h) {
     for (std::size_t k = 0; k < p.loops[h].size(); ++k)
-      new_p[static_cast<std::size_t>(edge_p++)] = edge++;
+      new_p[edge_p++] = edge++;
     out.loops.push_back(p.loops[h]);
   }
   for (std::size_t h = 1; h < q.loops.size(); ++h) {
     std::vector<PanelEdge> loop;
     for (const PanelEdge& e : q.loops[h]) {
       loop.push_back(moved(e));
-      new_q[static_cast<std::size_t>(edge_q++)] = edge++;
+      new_q[edge_q++] = edge++;
     }
     out.loops.push_back(loop);
   }
   for (InnerLine line : q.lines) {
     for (Segment& s : line.path)
-      for (Vec2& x : s.p) x = map(x);
+      for (Vec2& x : s.p)
+        x = map(x);
     const auto taken = [&] {
       return std::any_of(out.lines.begin(), out.lines.end(),
                          [&](const InnerLine& l) { return l.name == line.name; });
     };
-    while (taken()) line.name += "_" + q.name;
+    while (taken())
+      line.name += "_" + q.name;
     out.lines.push_back(std::move(line));
   }
   out.pleats.clear();
@@ -257,28 +270,32 @@ void join_panels(Pattern& pattern, const io::Node& node) {
     for (Pleat pleat : from->pleats) {
       pleat.fold += first;
       pleat.target += first;
-      for (int& e : pleat.edges) e = (*numbers)[static_cast<std::size_t>(e)];
+      for (int& e : pleat.edges)
+        e = (*numbers)[e];
       pleat.edges.erase(std::remove(pleat.edges.begin(), pleat.edges.end(), -1), pleat.edges.end());
-      if (!pleat.edges.empty()) out.pleats.push_back(std::move(pleat));
+      if (!pleat.edges.empty())
+        out.pleats.push_back(std::move(pleat));
     }
   out.notches.clear();
   for (const auto& [from, numbers] :
        {std::pair<const Panel*, const std::vector<int>*>{&p, &new_p}, {&q, &new_q}})
     for (Notch notch : from->notches)
-      if ((notch.edge = (*numbers)[static_cast<std::size_t>(notch.edge)]) >= 0)
+      if ((notch.edge = (*numbers)[notch.edge]) >= 0)
         out.notches.push_back(notch);
   pattern.seams.erase(seam);
   for (Seam& s : pattern.seams)
     for (auto* list : {&s.a, &s.b})
       for (Run& run : *list) {
-        if (run.panel == a.panel) run.edge = new_p[static_cast<std::size_t>(run.edge)];
+        if (run.panel == a.panel)
+          run.edge = new_p[run.edge];
         else if (run.panel == b.panel) {
-          run.edge = new_q[static_cast<std::size_t>(run.edge)];
+          run.edge = new_q[run.edge];
           run.panel = a.panel;
         }
-        if (run.panel > b.panel) --run.panel;
+        if (run.panel > b.panel)
+          --run.panel;
       }
-  pattern.panels[static_cast<std::size_t>(a.panel)] = std::move(out);
+  pattern.panels[a.panel] = std::move(out);
   pattern.panels.erase(pattern.panels.begin() + b.panel);
 }
 

@@ -61,15 +61,21 @@ io::Json panel_state(const Panel& p) {
     out["lines"] = lines;
     out["pleats"] = pleats;
   }
-  if (!p.hint.part.empty()) hint["part"] = p.hint.part;
-  if (p.hint.theta) hint["theta"] = *p.hint.theta;
-  if (p.hint.anchor) hint["anchor"] = io::to_json(*p.hint.anchor);
-  if (p.hint.radius) hint["radius"] = *p.hint.radius;
-  if (p.hint.height) hint["height"] = *p.hint.height;
+  if (!p.hint.part.empty())
+    hint["part"] = p.hint.part;
+  if (p.hint.theta)
+    hint["theta"] = *p.hint.theta;
+  if (p.hint.anchor)
+    hint["anchor"] = io::to_json(*p.hint.anchor);
+  if (p.hint.radius)
+    hint["radius"] = *p.hint.radius;
+  if (p.hint.height)
+    hint["height"] = *p.hint.height;
   if (p.hint.rigid) {
     io::Json m = io::Json::array();
     for (long r = 0; r < 4; ++r)
-      for (long c = 0; c < 4; ++c) m.push_back((*p.hint.rigid)(r, c));
+      for (long c = 0; c < 4; ++c)
+        m.push_back((*p.hint.rigid)(r, c));
     hint["rigid"] = m;
   }
   out["hint"] = hint;
@@ -82,7 +88,8 @@ Path path_from(const io::Node& segments) {
   Path path;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const io::Node numbers = segments.at(s);
-    if (numbers.size() != 9) numbers.fail("edit.damaged-undo"_id, "a segment needs 9 numbers");
+    if (numbers.size() != 9)
+      numbers.fail("edit.damaged-undo"_id, "a segment needs 9 numbers");
     Segment segment;
     segment.line = numbers.at(0).number() != 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -147,17 +154,21 @@ Panel panel_from(const io::Node& node) {
                     "pleat " + pleat.name + " is sewn along an edge that does not exist");
       }
       for (int line : {pleat.fold, pleat.target})
-        if (line < 0 || line >= static_cast<int>(p.lines.size()))
+        if (line < 0 || line >= std::ssize(p.lines))
           item.fail("edit.damaged-undo"_id,
                     "pleat " + pleat.name + " folds along a line that does not exist");
       p.pleats.push_back(std::move(pleat));
     }
   }
   p.hint.part = hint.string("part", "");
-  if (hint.has("theta")) p.hint.theta = hint.at("theta").number();
-  if (hint.has("anchor")) p.hint.anchor = hint.at("anchor").vec2();
-  if (hint.has("radius")) p.hint.radius = hint.at("radius").number();
-  if (hint.has("height")) p.hint.height = hint.at("height").number();
+  if (hint.has("theta"))
+    p.hint.theta = hint.at("theta").number();
+  if (hint.has("anchor"))
+    p.hint.anchor = hint.at("anchor").vec2();
+  if (hint.has("radius"))
+    p.hint.radius = hint.at("radius").number();
+  if (hint.has("height"))
+    p.hint.height = hint.at("height").number();
   if (hint.has("rigid")) {
     Mat4 m;
     if (hint.at("rigid").size() != 16)
@@ -173,10 +184,12 @@ io::Json seams_state(const Pattern& pattern) {
   io::Json out = io::Json::array();
   for (const Seam& s : pattern.seams) {
     io::Json seam = {{"name", s.name}, {"kind", s.kind}, {"ease", s.ease}};
-    if (s.open) seam["open"] = true;
+    if (s.open)
+      seam["open"] = true;
     for (const auto* side : {&s.a, &s.b}) {
       io::Json runs = io::Json::array();
-      for (const Run& r : *side) runs.push_back({r.panel, r.edge, r.from, r.to});
+      for (const Run& r : *side)
+        runs.push_back({r.panel, r.edge, r.from, r.to});
       seam[side == &s.a ? "a" : "b"] = runs;
     }
     out.push_back(seam);
@@ -191,7 +204,7 @@ io::Json restore_edit(const Pattern& before, const Pattern& after) {
     order.push_back(p.name);
     const int k = after.find_panel(p.name);
     const io::Json state = panel_state(p);
-    if (k < 0 || panel_state(after.panels[static_cast<std::size_t>(k)]) != state)
+    if (k < 0 || panel_state(after.panels[k]) != state)
       panels.push_back(state);
   }
   io::Json edit = {{"edit", "restore"}, {"order", order}, {"panels", panels}};
@@ -206,7 +219,8 @@ io::Json opposite(const io::Json& edit) {
   const std::string what = edit["edit"].get<std::string>();
   io::Json out = edit;
   if (what == "move-point" || what == "move-edge") {
-    for (auto& x : out["by"]) x = -x.get<double>();
+    for (auto& x : out["by"])
+      x = -x.get<double>();
     return out;
   }
   if ((what == "take-in" || what == "let-out") && edit.contains("panel")) {
@@ -234,10 +248,12 @@ void restore(Pattern& pattern, const io::Node& node) {
         panels.push_back(panel_from(given.at(g)));
         found = true;
       }
-    if (found) continue;
-    panels.push_back(pattern.panels[static_cast<std::size_t>(panel_named(pattern, order.at(k)))]);
+    if (found)
+      continue;
+    panels.push_back(pattern.panels[panel_named(pattern, order.at(k))]);
   }
-  if (panels.empty()) order.fail("edit.no-panel-left"_id, "no panel would be left");
+  if (panels.empty())
+    order.fail("edit.no-panel-left"_id, "no panel would be left");
   std::vector<Seam> seams = pattern.seams;
   if (node.has("seams")) {
     seams.clear();
@@ -264,8 +280,8 @@ void restore(Pattern& pattern, const io::Node& node) {
       if (side->empty())
         node.fail("edit.damaged-undo"_id, "seam " + seam.name + " has an empty side");
       for (const Run& run : *side)
-        if (run.panel < 0 || run.panel >= static_cast<int>(panels.size()) || run.edge < 0 ||
-            run.edge >= panels[static_cast<std::size_t>(run.panel)].n_edges() ||
+        if (run.panel < 0 || run.panel >= std::ssize(panels) || run.edge < 0 ||
+            run.edge >= panels[run.panel].n_edges() ||
             !(run.from >= 0 && run.from <= 1 && run.to >= 0 && run.to <= 1))
           node.fail("edit.damaged-undo"_id,
                     "seam " + seam.name + " runs along an edge that does not exist");
@@ -297,7 +313,8 @@ io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::s
   }
   std::reverse(steps.begin(), steps.end());
   out["edits"] = io::Json::array();
-  for (io::Json& step : steps) out["edits"].push_back(std::move(step));
+  for (io::Json& step : steps)
+    out["edits"].push_back(std::move(step));
   return out;
 }
 

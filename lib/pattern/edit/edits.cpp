@@ -37,7 +37,8 @@ struct Place {
 Place place_of_edge(Panel& panel, int edge) {
   std::size_t k = static_cast<std::size_t>(edge);
   for (auto& loop : panel.loops) {
-    if (k < loop.size()) return {&loop, k};
+    if (k < loop.size())
+      return {&loop, k};
     k -= loop.size();
   }
   return {&panel.loops[0], 0};
@@ -48,7 +49,8 @@ Place place_of_edge(Panel& panel, int edge) {
 void move_ends(const Place& place, const Vec2& start, const Vec2& end) {
   drag(place.edge().path, start, 1, 0);
   drag(place.edge().path, end, 0, 1);
-  if (place.loop->size() == 1) return;
+  if (place.loop->size() == 1)
+    return;
   drag(place.before().path, start, 0, 1);
   drag(place.after().path, end, 1, 0);
 }
@@ -60,11 +62,15 @@ void set_length(Panel& panel, int edge, double length, const std::string& fixed)
   const double factor = length / pattern::length(path);
   const Vec2 a = path.front().p[0], b = path.back().p[3];
   Vec2 about = a;
-  if (fixed == "end") about = b;
-  if (fixed == "middle") about = 0.5 * (a + b);
+  if (fixed == "end")
+    about = b;
+  if (fixed == "middle")
+    about = 0.5 * (a + b);
   for (Segment& s : path)
-    for (Vec2& p : s.p) p = snapped(Vec2(about + factor * (p - about)));
-  if (place.loop->size() == 1) return;
+    for (Vec2& p : s.p)
+      p = snapped(Vec2(about + factor * (p - about)));
+  if (place.loop->size() == 1)
+    return;
   drag(place.before().path, path.front().p[0] - a, 0, 1);
   drag(place.after().path, path.back().p[3] - b, 1, 0);
   // The ends must meet to the last bit.
@@ -76,10 +82,12 @@ void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map) {
   for (auto& loop : panel.loops)
     for (PanelEdge& e : loop)
       for (Segment& s : e.path)
-        for (Vec2& p : s.p) p = snapped(map(p));
+        for (Vec2& p : s.p)
+          p = snapped(map(p));
   for (InnerLine& line : panel.lines)
     for (Segment& s : line.path)
-      for (Vec2& p : s.p) p = snapped(map(p));
+      for (Vec2& p : s.p)
+        p = snapped(map(p));
 }
 
 /// After edits of edges: lines that end on an edge go with it, at the same fraction of its length.
@@ -91,7 +99,8 @@ void carry_lines(const Panel& before, Panel& after) {
       const Vec2 end = last ? path.back().p[3] : path.front().p[0];
       const OnOutline on = on_outline(before, end);
       move[last] = Vec2::Zero();
-      if (on.edge < 0) continue;
+      if (on.edge < 0)
+        continue;
       const ArcLength old(before.edge(on.edge).path), now(after.edge(on.edge).path);
       move[last] = now.at(on.at * now.length()) - old.at(on.at * old.length());
     }
@@ -136,9 +145,11 @@ const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
   const std::string name = node.string();
   const auto seam = std::find_if(pattern.seams.begin(), pattern.seams.end(),
                                  [&](const Seam& s) { return s.name == name; });
-  if (seam != pattern.seams.end()) return *seam;
+  if (seam != pattern.seams.end())
+    return *seam;
   std::vector<std::string> names;
-  for (const Seam& s : pattern.seams) names.push_back(s.name);
+  for (const Seam& s : pattern.seams)
+    names.push_back(s.name);
   node.fail("edit.no-seam"_id, "there is no seam '" + name + "'" + did_you_mean(name, names));
 }
 
@@ -147,7 +158,7 @@ const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
 void open_seam(Pattern& pattern, const io::Node& node, bool open) {
   node.allow_only({"edit", "seam"});
   const Seam& found = seam_named(pattern, node.at("seam"));
-  Seam& seam = pattern.seams[static_cast<std::size_t>(&found - pattern.seams.data())];
+  Seam& seam = pattern.seams[&found - pattern.seams.data()];
   if (seam.kind == "dart" || seam.kind == "pleat")
     node.at("seam").fail("edit.cannot-open"_id,
                          seam.name + " is a " + seam.kind + " and cannot be opened",
@@ -176,7 +187,7 @@ double positive_length(const io::Node& node, double unit) {
 }
 
 Panel& edited_panel(Pattern& pattern, const io::Node& node) {
-  return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))];
+  return pattern.panels[panel_named(pattern, node.at("panel"))];
 }
 int edited_edge(const Panel& panel, const io::Node& node) {
   return edge_named(panel, node.at("edge"));
@@ -219,7 +230,7 @@ void take_in(Pattern& pattern, const io::Node& node, double unit, double sign) {
   const Seam& seam = seam_named(pattern, node.at("seam"));
   for (const auto* side : {&seam.a, &seam.b})
     for (const Run& run : *side)
-      move_inward(node, pattern.panels[static_cast<std::size_t>(run.panel)], run.edge, 0.5 * by);
+      move_inward(node, pattern.panels[run.panel], run.edge, 0.5 * by);
 }
 
 void bend(Pattern& pattern, const io::Node& node, double unit) {
@@ -262,7 +273,7 @@ void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
   for (const auto* side : {&seam.a, &seam.b}) {
     const double ratio = length / side_length(pattern, *side);
     for (const Run& run : *side) {
-      Panel& p = pattern.panels[static_cast<std::size_t>(run.panel)];
+      Panel& p = pattern.panels[run.panel];
       set_length(p, run.edge, ratio * pattern::length(p.edge(run.edge).path), fixed);
     }
   }
@@ -284,8 +295,10 @@ void lengthen(Pattern& pattern, const io::Node& node, double unit, double sign) 
 /// The panel that an edit names, or all.
 template<class Change>
 void change_panels(Pattern& pattern, const io::Node& node, const Change& change) {
-  if (node.has("panel")) return change(edited_panel(pattern, node));
-  for (Panel& p : pattern.panels) change(p);
+  if (node.has("panel"))
+    return change(edited_panel(pattern, node));
+  for (Panel& p : pattern.panels)
+    change(p);
 }
 
 void scale(Pattern& pattern, const io::Node& node, double) {
@@ -319,7 +332,8 @@ void add_tape(Panel& p, const io::Node& node, double unit) {
   InnerLine tape{"", "tape", read_path(node.at("curve"), unit, nullptr), factor(node, "factor"),
                  node.number("width", 0.01 / unit) * unit};
   for (Segment& s : tape.path)
-    for (Vec2& q : s.p) q = snapped(q);
+    for (Vec2& q : s.p)
+      q = snapped(q);
   const auto [low, high] = extent(p);
   for (const Segment& s : tape.path)
     for (const Vec2& q : s.p)
@@ -342,7 +356,8 @@ void add_tape(Panel& p, const io::Node& node, double unit) {
   if (node.has("name") && taken(tape.name))
     node.at("name").fail("edit.name-taken"_id,
                          "panel " + p.name + " already has a line '" + tape.name + "'");
-  for (int k = 2; taken(tape.name); ++k) tape.name = "tape" + std::to_string(k);
+  for (int k = 2; taken(tape.name); ++k)
+    tape.name = "tape" + std::to_string(k);
   p.lines.push_back(std::move(tape));
 }
 
@@ -367,12 +382,14 @@ void shrink(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only(
       {"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
   Panel& p = edited_panel(pattern, node);
-  if (node.has("curve")) return add_tape(p, node, unit);
+  if (node.has("curve"))
+    return add_tape(p, node, unit);
   if (node.has("edge")) {
     const int e = edited_edge(p, node);
     return set_length(p, e, factor(node, "factor") * pattern::length(p.edge(e).path), "middle");
   }
-  if (node.has("strip")) return shrink_strip(p, node, unit);
+  if (node.has("strip"))
+    return shrink_strip(p, node, unit);
   const double warp = factor(node, "warp"), weft = factor(node, "weft");
   const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
   map_panel(p, [&](const Vec2& q) {
@@ -414,9 +431,11 @@ const Edit& edit_named(const io::Node& node) {
   std::vector<std::string> names;
   std::string known;
   for (const Edit& edit : EDITS) {
-    if (what == edit.name) return edit;
+    if (what == edit.name)
+      return edit;
     const bool last = &edit == std::end(EDITS) - 1;
-    if (!names.empty()) known += last ? " and " : ", ";
+    if (!names.empty())
+      known += last ? " and " : ", ";
     known += edit.name;
     names.emplace_back(edit.name);
   }
@@ -443,24 +462,27 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
   const double unit = unit_of(root.at("length_unit"));
   const auto onto_grid =
       [&] { // after each edit, so that a log in one piece and in many gives the same
-        for (Panel& p : pattern.panels) map_panel(p, [](const Vec2& q) { return q; });
+        for (Panel& p : pattern.panels)
+          map_panel(p, [](const Vec2& q) { return q; });
       };
   onto_grid();
   const io::Node edits = root.at("edits");
   for (std::size_t k = 0; k < edits.size(); ++k) {
     std::vector<Panel> lined;
     for (const Panel& p : pattern.panels)
-      if (!p.lines.empty()) lined.push_back(p);
+      if (!p.lines.empty())
+        lined.push_back(p);
     const Edit& edit = edit_named(edits.at(k));
     edit.apply(pattern, edits.at(k), unit);
     if (edit.drags_edges && !edits.at(k).has("warp") && !edits.at(k).has("strip"))
       for (const Panel& before : lined)
         if (const int p = pattern.find_panel(before.name); p >= 0)
-          carry_lines(before, pattern.panels[static_cast<std::size_t>(p)]);
+          carry_lines(before, pattern.panels[p]);
     onto_grid();
     for (const Panel& p : pattern.panels) {
       std::vector<Path> loop;
-      for (const PanelEdge& e : p.loops[0]) loop.push_back(e.path);
+      for (const PanelEdge& e : p.loops[0])
+        loop.push_back(e.path);
       if (const double area = signed_area(loop); !(area > 0))
         edits.at(k).fail("edit.turned-inside-out"_id,
                          "panel " + p.name +

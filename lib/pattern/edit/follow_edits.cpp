@@ -34,7 +34,7 @@ PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const
   PlaceOnEdge best{0, 0, 0};
   double least = 1e300;
   for (int e = 0; e < panel.n_edges(); ++e) {
-    const ArcLength& arc = arcs[static_cast<std::size_t>(e)];
+    const ArcLength& arc = arcs[e];
     const int n = 64;
     int at = 0;
     double near = 1e300;
@@ -45,13 +45,16 @@ PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const
         at = k;
       }
     }
-    if (std::sqrt(near) > std::sqrt(least) + 2 * arc.length() / n) continue;
+    if (std::sqrt(near) > std::sqrt(least) + 2 * arc.length() / n)
+      continue;
     double low = arc.length() * std::max(at - 1, 0) / n,
            high = arc.length() * std::min(at + 1, n) / n;
     for (int k = 0; k < 60; ++k) { // golden section; the distance has one minimum this near
       const double a = low + 0.381966 * (high - low), b = high - 0.381966 * (high - low);
-      if ((arc.at(a) - p).squaredNorm() < (arc.at(b) - p).squaredNorm()) high = b;
-      else low = a;
+      if ((arc.at(a) - p).squaredNorm() < (arc.at(b) - p).squaredNorm())
+        high = b;
+      else
+        low = a;
     }
     for (double s : {0.5 * (low + high), 0.0, arc.length()}) {
       const double d = (arc.at(s) - p).squaredNorm();
@@ -66,7 +69,8 @@ PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const
 
 /// Whether two patterns have the same panels, edges and seams, only elsewhere.
 bool same_edges(const Pattern& a, const Pattern& b) {
-  if (a.panels.size() != b.panels.size() || a.seams.size() != b.seams.size()) return false;
+  if (a.panels.size() != b.panels.size() || a.seams.size() != b.seams.size())
+    return false;
   for (std::size_t p = 0; p < a.panels.size(); ++p) {
     if (a.panels[p].name != b.panels[p].name ||
         a.panels[p].loops.size() != b.panels[p].loops.size())
@@ -79,16 +83,20 @@ bool same_edges(const Pattern& a, const Pattern& b) {
         a.panels[p].pleats.size() != b.panels[p].pleats.size())
       return false;
     for (std::size_t l = 0; l < a.panels[p].loops.size(); ++l) {
-      if (a.panels[p].loops[l].size() != b.panels[p].loops[l].size()) return false;
+      if (a.panels[p].loops[l].size() != b.panels[p].loops[l].size())
+        return false;
       for (std::size_t e = 0; e < a.panels[p].loops[l].size(); ++e)
-        if (a.panels[p].loops[l][e].name != b.panels[p].loops[l][e].name) return false;
+        if (a.panels[p].loops[l][e].name != b.panels[p].loops[l][e].name)
+          return false;
     }
   }
   for (std::size_t s = 0; s < a.seams.size(); ++s) {
-    if (a.seams[s].name != b.seams[s].name || a.seams[s].open != b.seams[s].open) return false;
+    if (a.seams[s].name != b.seams[s].name || a.seams[s].open != b.seams[s].open)
+      return false;
     for (const auto& [one, two] :
          {std::pair(&a.seams[s].a, &b.seams[s].a), std::pair(&a.seams[s].b, &b.seams[s].b)}) {
-      if (one->size() != two->size()) return false;
+      if (one->size() != two->size())
+        return false;
       for (std::size_t k = 0; k < one->size(); ++k)
         if ((*one)[k].panel != (*two)[k].panel || (*one)[k].edge != (*two)[k].edge ||
             (*one)[k].from != (*two)[k].from || (*one)[k].to != (*two)[k].to)
@@ -101,9 +109,11 @@ bool same_edges(const Pattern& a, const Pattern& b) {
 bool same_paths(const Panel& a, const Panel& b) {
   for (int e = 0; e < a.n_edges(); ++e) {
     const Path &p = a.edge(e).path, &q = b.edge(e).path;
-    if (p.size() != q.size()) return false;
+    if (p.size() != q.size())
+      return false;
     for (std::size_t s = 0; s < p.size(); ++s)
-      if (p[s].p != q[s].p || p[s].line != q[s].line) return false;
+      if (p[s].p != q[s].p || p[s].line != q[s].line)
+        return false;
   }
   return true;
 }
@@ -113,12 +123,12 @@ bool same_paths(const Panel& a, const Panel& b) {
 void prepare(FollowedPanel& state, const Panel& panel, const PanelInfo& info,
              const PanelMesh& mesh) {
   std::vector<ArcLength> arcs;
-  for (int e = 0; e < panel.n_edges(); ++e) arcs.emplace_back(panel.edge(e).path);
+  for (int e = 0; e < panel.n_edges(); ++e)
+    arcs.emplace_back(panel.edge(e).path);
   auto& edges = state.edges;
   for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[static_cast<std::size_t>(t)][k],
-                b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b)});
     }
   std::sort(edges.begin(), edges.end());
@@ -126,9 +136,11 @@ void prepare(FollowedPanel& state, const Panel& panel, const PanelInfo& info,
                              0); // on an edge with one triangle
   for (std::size_t k = 0; k < edges.size();) {
     std::size_t next = k + 1;
-    while (next < edges.size() && edges[next] == edges[k]) ++next;
+    while (next < edges.size() && edges[next] == edges[k])
+      ++next;
     if (next - k == 1)
-      for (int v : edges[k]) boundary[static_cast<std::size_t>(v - info.first_vertex)] = 1;
+      for (int v : edges[k])
+        boundary[v - info.first_vertex] = 1;
     k = next;
   }
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -138,16 +150,20 @@ void prepare(FollowedPanel& state, const Panel& panel, const PanelInfo& info,
     if (boundary[v])
       state.on[v] =
           locate(panel, arcs, mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v]);
-    else state.row[v] = state.n_free++;
-  if (state.n_free == 0) return;
+    else
+      state.row[v] = state.n_free++;
+  if (state.n_free == 0)
+    return;
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& e : edges)
     for (int turn = 0; turn < 2; ++turn) {
-      const int a = state.row[static_cast<std::size_t>(e[turn ? 1 : 0] - info.first_vertex)],
-                b = state.row[static_cast<std::size_t>(e[turn ? 0 : 1] - info.first_vertex)];
-      if (a < 0) continue;
+      const int a = state.row[e[turn ? 1 : 0] - info.first_vertex],
+                b = state.row[e[turn ? 0 : 1] - info.first_vertex];
+      if (a < 0)
+        continue;
       entries.emplace_back(a, a, 1.0);
-      if (b >= 0) entries.emplace_back(a, b, -1.0);
+      if (b >= 0)
+        entries.emplace_back(a, b, -1.0);
     }
   Eigen::SparseMatrix<double> matrix(state.n_free, state.n_free);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -179,25 +195,29 @@ MeshFollower::MeshFollower(MeshFollower&&) noexcept = default;
 double MeshFollower::off_outline() const {
   double most = 0;
   for (const FollowedPanel& s : m_state->panels)
-    for (const PlaceOnEdge& on : s.on) most = std::max(most, on.off);
+    for (const PlaceOnEdge& on : s.on)
+      most = std::max(most, on.off);
   return most;
 }
 
 bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_angle_deg) const {
-  if (!same_edges(m_state->before, after)) return false;
+  if (!same_edges(m_state->before, after))
+    return false;
   const std::vector<Vec2>& original = m_state->original;
   std::vector<Vec2> moved = original;
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) {
     const PanelInfo& info = mesh.panels[p];
     const FollowedPanel& state = m_state->panels[p];
     const Panel& panel = after.panels[p];
-    if (same_paths(m_state->before.panels[p], panel)) continue;
+    if (same_paths(m_state->before.panels[p], panel))
+      continue;
     std::vector<ArcLength> arcs;
-    for (int e = 0; e < panel.n_edges(); ++e) arcs.emplace_back(panel.edge(e).path);
+    for (int e = 0; e < panel.n_edges(); ++e)
+      arcs.emplace_back(panel.edge(e).path);
     const std::size_t first = static_cast<std::size_t>(info.first_vertex);
     for (std::size_t v = 0; v < state.row.size(); ++v)
       if (state.row[v] < 0) {
-        const ArcLength& arc = arcs[static_cast<std::size_t>(state.on[v].edge)];
+        const ArcLength& arc = arcs[state.on[v].edge];
         moved[first + v] = arc.at(state.on[v].fraction * arc.length());
       }
     if (state.n_free > 0) {
@@ -211,14 +231,13 @@ bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_an
         }
       const Eigen::MatrixXd shift = state.solver.solve(right);
       for (std::size_t v = 0; v < state.row.size(); ++v)
-        if (state.row[v] >= 0) moved[first + v] += shift.row(state.row[v]).transpose();
+        if (state.row[v] >= 0)
+          moved[first + v] += shift.row(state.row[v]).transpose();
     }
     for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t) {
-      const Triangle& k = mesh.triangles[static_cast<std::size_t>(t)];
+      const Triangle& k = mesh.triangles[t];
       const auto angle = [&](const std::vector<Vec2>& at) {
-        return smallest_angle(at[static_cast<std::size_t>(k[0])],
-                              at[static_cast<std::size_t>(k[1])],
-                              at[static_cast<std::size_t>(k[2])]);
+        return smallest_angle(at[k[0]], at[k[1]], at[k[2]]);
       };
       if (const double now = angle(moved);
           now < units::radians(least_angle_deg) && now < angle(original) - 1e-9)
@@ -232,14 +251,17 @@ bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_an
         s.length_a = side_length(after, seam.a);
         s.length_b = side_length(after, seam.b);
       }
-  for (std::size_t p = 0; p < mesh.panels.size(); ++p) mesh.panels[p].grain = after.panels[p].grain;
+  for (std::size_t p = 0; p < mesh.panels.size(); ++p)
+    mesh.panels[p].grain = after.panels[p].grain;
   return true;
 }
 
 bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh,
                   double least_angle_deg) {
-  if (!same_edges(before, after)) return false;
-  if (!MeshFollower(before, mesh).follow(after, mesh, least_angle_deg)) return false;
+  if (!same_edges(before, after))
+    return false;
+  if (!MeshFollower(before, mesh).follow(after, mesh, least_angle_deg))
+    return false;
   mesh.source = std::make_shared<Pattern>(after);
   return true;
 }

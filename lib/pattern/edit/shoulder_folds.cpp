@@ -31,7 +31,7 @@ std::vector<Vec2> sampled(const Pattern& pattern, const std::vector<Run>& side) 
         left -= here;
         continue;
       }
-      const ArcLength arc(pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
+      const ArcLength arc(pattern.panels[run.panel].edge(run.edge).path);
       const double f = here > 0 ? std::min(left / here, 1.0) : 0;
       out.push_back(arc.at((run.from + f * (run.to - run.from)) * arc.length()));
       break;
@@ -54,7 +54,8 @@ struct FoldedSeam {
 std::optional<FoldedSeam> folded_seam(const Pattern& pattern, const Seam& seam, int p) {
   constexpr double LEAST_APART = 0.04, OFF_SQUARE = 0.01, OFF_LINE = 0.03; // m
   constexpr double OFF_SHARE = 0.1; // of the distance of both sides
-  if (seam.kind == "dart" || !on_panel(seam.a, p) || !on_panel(seam.b, p)) return std::nullopt;
+  if (seam.kind == "dart" || !on_panel(seam.a, p) || !on_panel(seam.b, p))
+    return std::nullopt;
   const std::vector<Vec2> a = sampled(pattern, seam.a), b = sampled(pattern, seam.b);
   Vec2 across = Vec2::Zero(), middle = Vec2::Zero();
   double least = 1e300, most = 0;
@@ -64,13 +65,16 @@ std::optional<FoldedSeam> folded_seam(const Pattern& pattern, const Seam& seam, 
     least = std::min(least, (a[k] - b[k]).norm());
     most = std::max(most, (a[k] - b[k]).norm());
   }
-  if (!(least > LEAST_APART && across.norm() > LEAST_APART)) return std::nullopt;
+  if (!(least > LEAST_APART && across.norm() > LEAST_APART))
+    return std::nullopt;
   across.normalize();
   const FoldLine line{middle, Vec2(across.y(), -across.x())};
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Vec2 d = a[k] - b[k];
-    if (std::abs(line.along.dot(d)) > OFF_SQUARE + OFF_SHARE * d.norm()) return std::nullopt;
-    if (std::abs(line.side(0.5 * (a[k] + b[k]))) > OFF_LINE) return std::nullopt;
+    if (std::abs(line.along.dot(d)) > OFF_SQUARE + OFF_SHARE * d.norm())
+      return std::nullopt;
+    if (std::abs(line.side(0.5 * (a[k] + b[k]))) > OFF_LINE)
+      return std::nullopt;
   }
   const double length = 0.5 * (side_length(pattern, seam.a) + side_length(pattern, seam.b));
   return FoldedSeam{line, (most - least) / length};
@@ -79,19 +83,22 @@ std::optional<FoldedSeam> folded_seam(const Pattern& pattern, const Seam& seam, 
 /// Whether a second panel is sewn to p on both sides of the line.
 bool has_other_half(const Pattern& pattern, int p, const FoldLine& line) {
   constexpr double CLEAR = 0.05; // m off the fold
-  for (int q = 0; q < static_cast<int>(pattern.panels.size()); ++q) {
+  for (int q = 0; q < std::ssize(pattern.panels); ++q) {
     bool sides[2] = {false, false};
     for (const Seam& seam : pattern.seams)
       for (const auto* own : {&seam.a, &seam.b}) {
         const auto& other = own == &seam.a ? seam.b : seam.a;
-        if (q == p || !on_panel(*own, p) || !on_panel(other, q)) continue;
+        if (q == p || !on_panel(*own, p) || !on_panel(other, q))
+          continue;
         // Along the middle it goes away from the fold; along an armhole it goes over it.
         const std::vector<Vec2> points = sampled(pattern, *own);
         const double from = line.side(points.front()), to = line.side(points.back());
-        if (std::abs(to - from) < CLEAR || from * to < -CLEAR * CLEAR) continue;
+        if (std::abs(to - from) < CLEAR || from * to < -CLEAR * CLEAR)
+          continue;
         sides[from + to > 0] = true;
       }
-    if (sides[0] && sides[1]) return true;
+    if (sides[0] && sides[1])
+      return true;
   }
   return false;
 }
@@ -99,7 +106,7 @@ bool has_other_half(const Pattern& pattern, int p, const FoldLine& line) {
 std::optional<FoldLine> fold_of(const Pattern& pattern, int p) {
   constexpr double GOES_AWAY = 1.2, ALONE_GOES_AWAY = 1.5;             // growth
   constexpr double SAME_WAY = 0.99, SAME_LINE = 0.03, FAR_APART = 0.2; // cosine; m
-  const Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
+  const Panel& panel = pattern.panels[p];
   for (const InnerLine& line : panel.lines)
     if (line.kind == "fold" && line.name.rfind("shoulder", 0) == 0) {
       const Vec2 from = line.path.front().p[0], to = line.path.back().p[3];
@@ -117,7 +124,8 @@ std::optional<FoldLine> fold_of(const Pattern& pattern, int p) {
         return FoldLine{0.5 * (a.at + b.at), (b.at - a.at).normalized()};
     }
   for (const FoldedSeam& f : folded)
-    if (f.growth > ALONE_GOES_AWAY && has_other_half(pattern, p, f.line)) return f.line;
+    if (f.growth > ALONE_GOES_AWAY && has_other_half(pattern, p, f.line))
+      return f.line;
   return std::nullopt;
 }
 
@@ -128,7 +136,8 @@ public:
     int first = 0;
     for (const auto& loop : panel.loops) {
       std::vector<Piece> pieces;
-      for (const PanelEdge& edge : loop) pieces.push_back({edge, {first++, 0, 1}});
+      for (const PanelEdge& edge : loop)
+        pieces.push_back({edge, {first++, 0, 1}});
       for (std::size_t k = 0; k < pieces.size(); ++k)
         if (const double at = crossing(pieces[k]); at > 0)
           corner_at(pieces, k, at); // what is left, which may cross again, is the next piece
@@ -136,7 +145,8 @@ public:
     }
     for (std::size_t l = 0; l < m_loops.size(); ++l)
       for (std::size_t k = 0; k < m_loops[l].size(); ++k)
-        if (side_of(m_loops[l][k]) != side_of(next(l, k))) m_hits.push_back({l, k});
+        if (side_of(m_loops[l][k]) != side_of(next(l, k)))
+          m_hits.push_back({l, k});
     std::sort(m_hits.begin(), m_hits.end(), [&](const auto& a, const auto& b) {
       return m_line.place(end_of(at(a))) < m_line.place(end_of(at(b)));
     });
@@ -145,13 +155,16 @@ public:
   /// The half on one side, its cuts named fold_1, fold_2 from `along`'s start on; nothing where it
   /// is not in one piece.
   std::optional<Rebuilt> half(const Panel& like, int side) const {
-    if (m_hits.empty() || m_hits.size() % 2) return std::nullopt;
+    if (m_hits.empty() || m_hits.size() % 2)
+      return std::nullopt;
     std::vector<std::vector<Piece>> loops;
     std::vector<std::vector<char>> done;
-    for (const auto& loop : m_loops) done.emplace_back(loop.size(), 0);
+    for (const auto& loop : m_loops)
+      done.emplace_back(loop.size(), 0);
     for (std::size_t l = 0; l < m_loops.size(); ++l)
       for (std::size_t k = 0; k < m_loops[l].size(); ++k) {
-        if (done[l][k] || side_of(m_loops[l][k]) != side) continue;
+        if (done[l][k] || side_of(m_loops[l][k]) != side)
+          continue;
         loops.emplace_back();
         for (std::pair<std::size_t, std::size_t> i = {l, k}; !done[i.first][i.second];) {
           done[i.first][i.second] = 1;
@@ -176,7 +189,8 @@ public:
     int outer = 0;
     const auto area = [](const std::vector<Piece>& loop) {
       std::vector<Path> paths;
-      for (const Piece& piece : loop) paths.push_back(piece.edge.path);
+      for (const Piece& piece : loop)
+        paths.push_back(piece.edge.path);
       return signed_area(paths);
     };
     std::stable_sort(loops.begin(), loops.end(),
@@ -192,7 +206,8 @@ public:
       }
       out.panel.loops.push_back(std::move(edges));
     }
-    if (outer != 1) return std::nullopt;
+    if (outer != 1)
+      return std::nullopt;
     return out;
   }
   int n_cuts() const { return static_cast<int>(m_hits.size() / 2); }
@@ -209,7 +224,8 @@ private:
     const ArcLength arc(piece.edge.path);
     for (int k = 0; k <= SEAM_SAMPLES; ++k) {
       const double side = m_line.side(arc.at(arc.length() * k / SEAM_SAMPLES));
-      if (std::abs(side) > std::abs(most)) most = side;
+      if (std::abs(side) > std::abs(most))
+        most = side;
     }
     return most > 0;
   }
@@ -221,12 +237,14 @@ private:
     for (int k = 0; k < STRETCHES; ++k) {
       double low = static_cast<double>(k) / STRETCHES, high = (k + 1.0) / STRETCHES;
       const bool left = side(low) > 0;
-      if ((side(high) > 0) == left) continue;
+      if ((side(high) > 0) == left)
+        continue;
       for (int turn = 0; turn < HALVINGS; ++turn) {
         const double middle = 0.5 * (low + high);
         ((side(middle) > 0) == left ? low : high) = middle;
       }
-      if (std::min(low, 1 - low) * arc.length() > AT_CORNER) return low;
+      if (std::min(low, 1 - low) * arc.length() > AT_CORNER)
+        return low;
     }
     return 0;
   }
@@ -240,7 +258,8 @@ double area_of(const Panel& panel) {
   double sum = 0;
   for (const auto& loop : panel.loops) {
     std::vector<Path> paths;
-    for (const PanelEdge& edge : loop) paths.push_back(edge.path);
+    for (const PanelEdge& edge : loop)
+      paths.push_back(edge.path);
     sum += signed_area(paths);
   }
   return sum;
@@ -252,20 +271,24 @@ void stand_up(Panel& panel, const Vec2& up) {
       Eigen::Rotation2Dd(units::PI / 2 - std::atan2(up.y(), up.x())).toRotationMatrix();
   const auto path = [&](Path& p) {
     for (Segment& s : p)
-      for (Vec2& x : s.p) x = snapped(turn * x);
+      for (Vec2& x : s.p)
+        x = snapped(turn * x);
   };
   for (auto& loop : panel.loops)
-    for (PanelEdge& edge : loop) path(edge.path);
-  for (InnerLine& line : panel.lines) path(line.path);
+    for (PanelEdge& edge : loop)
+      path(edge.path);
+  for (InnerLine& line : panel.lines)
+    path(line.path);
   panel.grain = (turn * panel.grain).normalized();
 }
 
 bool cut_at(Pattern& pattern, int p, const FoldLine& line) {
   constexpr double SAME_AREA = 1e-3; // of a half: necks as deep
-  const Panel panel = pattern.panels[static_cast<std::size_t>(p)];
+  const Panel panel = pattern.panels[p];
   const CutLoops loops(panel, line);
   auto left = loops.half(panel, 1), right = loops.half(panel, 0);
-  if (!left || !right) return false;
+  if (!left || !right)
+    return false;
   const double larger = area_of(left->panel) - area_of(right->panel);
   const bool level = std::abs(larger) < SAME_AREA * area_of(panel);
   const bool left_in_front = level ? line.along.x() < 0 : larger < 0; // as drawn, the lower one
@@ -277,7 +300,8 @@ bool cut_at(Pattern& pattern, int p, const FoldLine& line) {
       const ArcLength arc(inner.path);
       for (int k = 0; k <= SEAM_SAMPLES; ++k) {
         const double side = line.side(arc.at(arc.length() * k / SEAM_SAMPLES));
-        if ((is_left ? side : -side) < LINE_ON_EDGE) return false;
+        if ((is_left ? side : -side) < LINE_ON_EDGE)
+          return false;
       }
       return true;
     });
@@ -291,12 +315,11 @@ bool cut_at(Pattern& pattern, int p, const FoldLine& line) {
   }
   const std::string names[2] = {halves[0].panel.name, halves[1].panel.name};
   static const io::Json NOTHING;
-  const int other = static_cast<int>(pattern.panels.size());
+  const int other = std::ssize(pattern.panels);
   replace_panel(pattern, p, std::move(halves), io::Node(NOTHING, panel.name));
   for (int k = 1; k <= loops.n_cuts(); ++k) {
     const std::string edge = "fold_" + std::to_string(k);
-    const int a = pattern.panels[static_cast<std::size_t>(p)].find_edge(edge),
-              b = pattern.panels[static_cast<std::size_t>(other)].find_edge(edge);
+    const int a = pattern.panels[p].find_edge(edge), b = pattern.panels[other].find_edge(edge);
     pattern.seams.push_back(
         {panel.name + "-" + edge, "seam", {{p, a, 0, 1}}, {{other, b, 1, 0}}, ""});
   }
@@ -313,7 +336,8 @@ bool cut_at(Pattern& pattern, int p, const FoldLine& line) {
 int cut_shoulder_folds(Pattern& pattern) {
   int cut = 0;
   for (int p = 0, n = static_cast<int>(pattern.panels.size()); p < n; ++p)
-    if (const auto line = fold_of(pattern, p)) cut += cut_at(pattern, p, *line);
+    if (const auto line = fold_of(pattern, p))
+      cut += cut_at(pattern, p, *line);
   return cut;
 }
 

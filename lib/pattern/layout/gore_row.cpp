@@ -28,7 +28,8 @@ constexpr double LONG =
 
 /// u of a side at height v: straight up above its end, on as it leans below.
 double side_at(const std::vector<Vec2>& side, double v) { // descending in v
-  if (v >= side.front().y()) return side.front().x();
+  if (v >= side.front().y())
+    return side.front().x();
   for (std::size_t k = 1; k < side.size(); ++k)
     if (v >= side[k].y()) {
       const double span = side[k - 1].y() - side[k].y();
@@ -37,7 +38,8 @@ double side_at(const std::vector<Vec2>& side, double v) { // descending in v
     }
   const Vec2& end = side.back();
   std::size_t from = side.size() - 1;
-  while (from > 0 && side[from].y() < end.y() + 0.05) --from;
+  while (from > 0 && side[from].y() < end.y() + 0.05)
+    --from;
   const double span = side[from].y() - end.y();
   const double lean =
       span > 1e-3 ? std::clamp((end.x() - side[from].x()) / span, -STEEPEST, STEEPEST) : 0.0;
@@ -70,7 +72,8 @@ Gore::Gore(std::size_t of, std::vector<Vec2> left, std::vector<Vec2> right)
         std::clamp((half[b] - half[a]) / (m_step * static_cast<double>(b - a)), 0.0, STEEPEST);
   }
   flare = averaged(flare, 4);
-  for (std::size_t k = 0; k < n; ++k) m_rows[k].flare = flare[k];
+  for (std::size_t k = 0; k < n; ++k)
+    m_rows[k].flare = flare[k];
 }
 
 Gore::Row Gore::row_at(double v) const {
@@ -115,19 +118,24 @@ public:
         m_spots(spots), m_links{std::vector<Links>(roles.size()),
                                 std::vector<Links>(roles.size())} {
     for (std::size_t k = 0; k < roles.size(); ++k)
-      if (fits(k)) find_links(k);
+      if (fits(k))
+        find_links(k);
   }
 
   std::vector<GoreRow> run() {
     std::vector<GoreRow> rings;
     std::vector<char> met(m_roles.size(), 0);
     for (std::size_t k = 0; k < m_roles.size(); ++k) {
-      if (met[k] || !fits(k)) continue;
+      if (met[k] || !fits(k))
+        continue;
       const std::vector<std::size_t> row = row_of(k);
-      if (row.empty()) continue;
-      for (std::size_t p : row) met[p] = 1;
+      if (row.empty())
+        continue;
+      for (std::size_t p : row)
+        met[p] = 1;
       if (auto ring = ring_of(row)) {
-        for (const Gore& g : ring->gores) met[g.panel] = 1;
+        for (const Gore& g : ring->gores)
+          met[g.panel] = 1;
         rings.push_back(std::move(*ring));
       }
     }
@@ -159,7 +167,8 @@ private:
     const auto& outline = m_mesh.panels[k].outline;
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Vec2 a = uv(k, outline[i]), b = uv(k, outline[(i + 1) % outline.size()]);
-      if (std::min(a.y(), b.y()) > p.y() || std::max(a.y(), b.y()) < p.y()) continue;
+      if (std::min(a.y(), b.y()) > p.y() || std::max(a.y(), b.y()) < p.y())
+        continue;
       for (double t : {0.0, 1.0}) {
         const double x = std::abs(b.y() - a.y()) > 1e-9
                              ? a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())
@@ -174,7 +183,8 @@ private:
   void find_links(std::size_t k) {
     for (int neighbour : m_graph.neighbours(static_cast<int>(k))) {
       const std::size_t q = static_cast<std::size_t>(neighbour);
-      if (!fits(q) || m_mesh.panels[q].layer != m_mesh.panels[k].layer) continue;
+      if (!fits(q) || m_mesh.panels[q].layer != m_mesh.panels[k].layer)
+        continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), neighbour)) {
         Vec2 extent[2];
         for (std::size_t end : {0, 1}) {
@@ -192,7 +202,8 @@ private:
             extent[1].y() < least_rise * extent[1].x())
           continue;
         double right = 0;
-        for (const auto& s : seam) right += rightness(k, uv(k, s[0]));
+        for (const auto& s : seam)
+          right += rightness(k, uv(k, s[0]));
         Link& link = m_links[right > 0 ? RIGHT : LEFT][k][q];
         for (const auto& s : seam) {
           link.side.push_back(uv(k, s[0]));
@@ -214,7 +225,8 @@ private:
     const auto highest = [&](std::size_t of, int side) {
       std::optional<std::size_t> best;
       for (const auto& [q, link] : m_links[side][of])
-        if (!best || link.top > m_links[side][of].at(*best).top + 1e-9) best = q;
+        if (!best || link.top > m_links[side][of].at(*best).top + 1e-9)
+          best = q;
       return best;
     };
     const auto q = highest(k, direction);
@@ -228,8 +240,10 @@ private:
     for (const int direction : {RIGHT, LEFT}) {
       for (;;) {
         const auto q = next(direction == RIGHT ? row.back() : row.front(), direction);
-        if (!q) break;
-        if (std::find(row.begin(), row.end(), *q) != row.end()) return row; // closed
+        if (!q)
+          break;
+        if (std::find(row.begin(), row.end(), *q) != row.end())
+          return row; // closed
         row.insert(direction == RIGHT ? row.end() : row.begin(), *q);
       }
     }
@@ -242,7 +256,8 @@ private:
       std::vector<std::size_t> row;
       for (std::optional<std::size_t> k = first; k && *k != q && row.size() < m_roles.size();) {
         row.push_back(*k);
-        if (m_links[RIGHT][*k].count(q)) return row;
+        if (m_links[RIGHT][*k].count(q))
+          return row;
         k = next(*k, RIGHT);
       }
     }
@@ -276,15 +291,18 @@ private:
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t p = row[i], q = row[(i + 1) % n];
       order.push_back({p, false});
-      if (p == q || (n == 2 && i == 1 && !m_links[RIGHT][p].count(q))) continue;
+      if (p == q || (n == 2 && i == 1 && !m_links[RIGHT][p].count(q)))
+        continue;
       for (std::size_t g : let_in(p, q))
         if (std::find(row.begin(), row.end(), g) == row.end()) {
           order.push_back({g, true});
           flared = true;
         }
-      if (m_roles[p].side == m_roles[q].side) flared = flared || flare(p, q) > FLARE;
+      if (m_roles[p].side == m_roles[q].side)
+        flared = flared || flare(p, q) > FLARE;
     }
-    if (!flared) return std::nullopt;
+    if (!flared)
+      return std::nullopt;
     GoreRow ring;
     ring.top = -1e300;
     ring.bottom = 1e300;
@@ -323,7 +341,8 @@ private:
   /// go on from there.
   static void look_around(GoreRow& ring) {
     double around = 0, at = 0;
-    for (const Gore& g : ring.gores) around += 2 * g.half_width(ring.top);
+    for (const Gore& g : ring.gores)
+      around += 2 * g.half_width(ring.top);
     const double first = ring.gores[0].half_width(ring.top),
                  looks = ring.gores[0].side == Side::BACK ? units::PI : 0;
     for (Gore& g : ring.gores) {

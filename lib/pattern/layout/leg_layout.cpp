@@ -23,7 +23,8 @@ void bridge(std::vector<LegRow>& rows, LegRow::Span LegRow::*span) {
   const auto there = [&](std::size_t k) { return (rows[k].*span).width() > 0; };
   std::size_t last = rows.size();
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (!there(k)) continue;
+    if (!there(k))
+      continue;
     for (std::size_t j = last + 1; last < rows.size() && j < k; ++j) {
       const double t = static_cast<double>(j - last) / static_cast<double>(k - last);
       const LegRow::Span &a = rows[last].*span, &b = rows[k].*span;
@@ -38,19 +39,20 @@ void bridge(std::vector<LegRow>& rows, LegRow::Span LegRow::*span) {
 void carry_on(std::vector<LegRow>& rows, LegRow::Span LegRow::*span, double step, bool top) {
   const int n = static_cast<int>(rows.size()),
             zone = static_cast<int>(std::lround((top ? TOP_ZONE : BOTTOM_ZONE) / step));
-  const auto at = [&](int k) -> LegRow::Span& {
-    return rows[static_cast<std::size_t>(top ? k : n - 1 - k)].*span;
-  };
+  const auto at = [&](int k) -> LegRow::Span& { return rows[top ? k : n - 1 - k].*span; };
   int first = 0; // first row that is there
-  while (first < n && at(first).width() <= 0) ++first;
-  if (first + zone >= n) return;
+  while (first < n && at(first).width() <= 0)
+    ++first;
+  if (first + zone >= n)
+    return;
   for (const bool in : {true, false}) {
     const auto value = [&](int k) -> double& { return in ? at(k).in : at(k).out; };
     bool held = false;
     for (int k = first + zone - 1; k >= 0; --k) {
       const double inwards = (value(k) - value(k + 1)) * (in ? 1 : -1);
       held = held || k < first || inwards > SLANT * step;
-      if (held) value(k) = value(k + 1);
+      if (held)
+        value(k) = value(k + 1);
     }
   }
 }
@@ -66,8 +68,10 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
   for (std::size_t p = 0; p < roles.size(); ++p)
     for (int neighbour : graph.neighbours(static_cast<int>(p))) {
       const std::size_t q = static_cast<std::size_t>(neighbour);
-      if (mesh.panels[p].layer != mesh.panels[q].layer) continue;
-      if (q < p || roles[p].region != Region::TRUNK || roles[q].region != Region::TRUNK) continue;
+      if (mesh.panels[p].layer != mesh.panels[q].layer)
+        continue;
+      if (q < p || roles[p].region != Region::TRUNK || roles[q].region != Region::TRUNK)
+        continue;
       for (const auto& seam : graph.between(static_cast<int>(p), neighbour)) {
         const Vec2 along = (v(p, seam.back()[0]) - v(p, seam.front()[0])).cwiseAbs();
         double mean = 0, least = 1e300, own = 0, other = 0;
@@ -99,7 +103,8 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
     }
   const Eigen::VectorXd shift = normal.ldlt().solve(right);
   for (std::size_t p = 0; p < roles.size(); ++p)
-    if (roles[p].region == Region::TRUNK) spots[p].offset.y() += shift(static_cast<long>(p));
+    if (roles[p].region == Region::TRUNK)
+      spots[p].offset.y() += shift(static_cast<long>(p));
 }
 
 std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph,
@@ -108,7 +113,7 @@ std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph,
   std::optional<double> low;
   for (std::size_t p = 0; p < roles.size(); ++p)
     for (int q : graph.neighbours(static_cast<int>(p))) {
-      const PanelRole& other = roles[static_cast<std::size_t>(q)];
+      const PanelRole& other = roles[q];
       if (!is_leg(roles[p]) || !is_leg(other) || roles[p].part == other.part ||
           roles[p].side != other.side)
         continue;
@@ -128,11 +133,14 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
     const Side side = roles[p].side;
     const double sign = (left ? 1 : -1) * (side == Side::BACK ? -1 : 1);
     auto span = &LegRow::ring;
-    if (side == Side::FRONT) span = &LegRow::front;
-    if (side == Side::BACK) span = &LegRow::back;
+    if (side == Side::FRONT)
+      span = &LegRow::front;
+    if (side == Side::BACK)
+      span = &LegRow::back;
     const auto& outline = mesh.panels[p].outline;
     const auto take = [&](double row, double t) {
-      if (row < -0.5 || row > static_cast<double>(n) - 0.5) return;
+      if (row < -0.5 || row > static_cast<double>(n) - 0.5)
+        return;
       LegRow::Span& s = rows[static_cast<std::size_t>(std::lround(row))].*span;
       s.in = std::min(s.in, t);
       s.out = std::max(s.out, t);
@@ -146,7 +154,8 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
         take(row, sign * (a.x() + (row - ra) / (rb - ra) * (b.x() - a.x())));
     }
   }
-  for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) bridge(rows, span);
+  for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring})
+    bridge(rows, span);
   for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) {
     carry_on(rows, span, step, true);
     carry_on(rows, span, step, false);

@@ -40,16 +40,15 @@ private:
     double sum = 0;
     for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
       for (std::size_t k = 0; k + 1 < seam.size(); ++k)
-        sum += (m_mesh.pattern[static_cast<std::size_t>(seam[k + 1][0])] -
-                m_mesh.pattern[static_cast<std::size_t>(seam[k][0])])
-                   .norm();
+        sum += (m_mesh.pattern[seam[k + 1][0]] - m_mesh.pattern[seam[k][0]]).norm();
     return sum;
   }
 
   void lay_region(Region region) {
     const bool trunk = region == Region::TRUNK;
     for (std::size_t k = 0; k < count(); ++k) {
-      if (m_roles[k].region != region || !m_roles[k].dv) continue;
+      if (m_roles[k].region != region || !m_roles[k].dv)
+        continue;
       m_spots[k].offset.y() = *m_roles[k].dv;
       m_done[k] = true;
       if (m_roles[k].du) {
@@ -63,10 +62,12 @@ private:
       std::size_t best = count(), partner = count();
       double most = 0;
       for (std::size_t k = 0; k < count(); ++k) {
-        if (m_roles[k].region != region || m_done[k]) continue;
+        if (m_roles[k].region != region || m_done[k])
+          continue;
         for (int q : m_graph.neighbours(static_cast<int>(k))) {
           const std::size_t o = static_cast<std::size_t>(q);
-          if (m_roles[o].region != region || !m_done[o]) continue;
+          if (m_roles[o].region != region || !m_done[o])
+            continue;
           const double score = seam_length(k, o) * (m_roles[k].side == m_roles[o].side ? 10 : 1);
           if (score > most) {
             most = score;
@@ -81,25 +82,30 @@ private:
       }
       // A new piece: the widest that is left, or for arms and necks the one sewn to the trunk.
       for (std::size_t k = 0; k < count(); ++k) {
-        if (m_roles[k].region != region || m_done[k]) continue;
+        if (m_roles[k].region != region || m_done[k])
+          continue;
         double score = 1 + (bounds(k)[1] - bounds(k)[0]).prod();
         if (!trunk)
           for (int q : m_graph.neighbours(static_cast<int>(k)))
-            score += m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK ? 10 : 0;
+            score += m_roles[q].region == Region::TRUNK ? 10 : 0;
         if (score > most) {
           most = score;
           best = k;
         }
       }
-      if (best == count()) break;
+      if (best == count())
+        break;
       m_spots[best].offset = Vec2(0, 0);
-      if (!trunk) m_spots[best].offset.y() = -bounds(best)[1].y();
+      if (!trunk)
+        m_spots[best].offset.y() = -bounds(best)[1].y();
       m_block[best] = static_cast<int>(best);
       m_done[best] = true;
     }
-    if (trunk) align_rows();
+    if (trunk)
+      align_rows();
     middle_blocks(region);
-    if (trunk) close_level_seams();
+    if (trunk)
+      close_level_seams();
   }
 
   bool upright(std::size_t p, std::size_t q) const {
@@ -122,7 +128,8 @@ private:
              !is_leg(m_roles[k]) && !m_roles[k].du;
     };
     for (std::size_t first = 0; first < count(); ++first) {
-      if (met[first] || !in_row(first)) continue;
+      if (met[first] || !in_row(first))
+        continue;
       std::vector<std::size_t> row = {first};
       met[first] = true;
       double shift = 0;
@@ -130,7 +137,8 @@ private:
       for (std::size_t i = 0; i < row.size(); ++i) // it grows
         for (int neighbour : m_graph.neighbours(static_cast<int>(row[i]))) {
           const std::size_t p = row[i], q = static_cast<std::size_t>(neighbour);
-          if (m_roles[q].side != m_roles[p].side || !same_layer(p, q)) continue;
+          if (m_roles[q].side != m_roles[p].side || !same_layer(p, q))
+            continue;
           if (m_roles[q].du) {
             for (const auto& seam : m_graph.between(static_cast<int>(p), neighbour))
               for (const auto& s : seam) {
@@ -142,8 +150,10 @@ private:
             row.push_back(q);
           }
         }
-      if (row.size() < 2 || n == 0) continue;
-      for (std::size_t k : row) m_spots[k].offset.x() += shift / n;
+      if (row.size() < 2 || n == 0)
+        continue;
+      for (std::size_t k : row)
+        m_spots[k].offset.x() += shift / n;
     }
   }
 
@@ -152,7 +162,8 @@ private:
   void close_level_seams() {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < count(); ++k)
-      if (m_roles[k].region == Region::TRUNK) order.push_back(k);
+      if (m_roles[k].region == Region::TRUNK)
+        order.push_back(k);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return middle_of(a).y() > middle_of(b).y() + 1e-9;
     });
@@ -164,21 +175,25 @@ private:
         if (m_roles[p].side != m_roles[q].side && m_roles[p].side != Side::RING &&
             m_roles[q].side != Side::RING)
           continue;
-        if (!same_layer(p, q)) continue;
+        if (!same_layer(p, q))
+          continue;
         Vec2 along = Vec2::Zero();
         double open = 1e300; // along the seam itself: gores stand aside of what they hang from, and
                              // columns that both cover may miss it
         for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) {
           along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
-          for (const auto& s : seam) open = std::min(open, at(q, s[1]).y() - at(p, s[0]).y());
+          for (const auto& s : seam)
+            open = std::min(open, at(q, s[1]).y() - at(p, s[0]).y());
         }
-        if (along.x() < 0.05 || upright(p, q)) continue; // no seam, an upright or a small one
+        if (along.x() < 0.05 || upright(p, q))
+          continue; // no seam, an upright or a small one
         const double clearance = m_roles[p].side == m_roles[q].side
                                      ? column_clearance(p, q)
                                      : bounds(q)[0].y() - bounds(p)[1].y();
         shift = std::min(shift, (open < clearance - ASIDE ? open : clearance) - PANEL_GAP);
       }
-      if (shift < 1e299) m_spots[p].offset.y() += shift;
+      if (shift < 1e299)
+        m_spots[p].offset.y() += shift;
     }
   }
 
@@ -186,12 +201,14 @@ private:
   double column_clearance(std::size_t p, std::size_t q) const {
     const auto bp = bounds(p), bq = bounds(q);
     const double from = std::max(bp[0].x(), bq[0].x()), to = std::min(bp[1].x(), bq[1].x());
-    if (from >= to) return bq[0].y() - bp[1].y();
+    if (from >= to)
+      return bq[0].y() - bp[1].y();
     double least = 1e300;
     for (int k = 1; k < 100; ++k) {
       const double line = from + (to - from) * k / 100;
       const double top = reach(p, line, 1), bottom = reach(q, line, -1);
-      if (top > -1e299 && bottom < 1e299) least = std::min(least, bottom - top);
+      if (top > -1e299 && bottom < 1e299)
+        least = std::min(least, bottom - top);
     }
     return least < 1e299 ? least : bq[0].y() - bp[1].y();
   }
@@ -202,7 +219,8 @@ private:
     const auto& outline = m_mesh.panels[panel].outline;
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const Vec2 a = at(panel, outline[k]), b = at(panel, outline[(k + 1) % outline.size()]);
-      if ((a.x() <= u) == (b.x() <= u)) continue;
+      if ((a.x() <= u) == (b.x() <= u))
+        continue;
       best = std::max(best, sense * (a.y() + (u - a.x()) / (b.x() - a.x()) * (b.y() - a.y())));
     }
     return sense * best;
@@ -221,7 +239,8 @@ private:
     }
     const bool level = !upright(p, q), same_side = m_roles[p].side == m_roles[q].side;
     m_spots[p].offset += (other - own) / std::max(n, 1);
-    if (same_side && level) m_spots[p].offset.x() += off_its_row(p);
+    if (same_side && level)
+      m_spots[p].offset.x() += off_its_row(p);
     m_done[p] = true;
     if (!same_side) {
       m_spots[p].offset.x() = 0;
@@ -230,7 +249,8 @@ private:
     }
     m_block[p] = m_block[q];
     m_u_known[p] = m_u_known[q];
-    if (!same_layer(p, q)) return;          // it lies over the other, seam on seam
+    if (!same_layer(p, q))
+      return;                               // it lies over the other, seam on seam
     const std::size_t axis = level ? 1 : 0; // a level seam parts them in v, an upright one in u
     const Vec2 mine = middle_of(p), theirs = middle_of(q);
     part(p, q, static_cast<long>(axis),
@@ -270,7 +290,8 @@ private:
       const auto& outline = m_mesh.panels[panel].outline;
       for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2 a = at(panel, outline[k]), b = at(panel, outline[(k + 1) % outline.size()]);
-        if ((a[across] <= line) == (b[across] <= line)) continue;
+        if ((a[across] <= line) == (b[across] <= line))
+          continue;
         const double x =
             a[axis] + (line - a[across]) / (b[across] - a[across]) * (b[axis] - a[axis]);
         low = std::min(low, x);
@@ -285,10 +306,12 @@ private:
       double pl, ph, ql, qh;
       extent(p, line, pl, ph);
       extent(q, line, ql, qh);
-      if (pl > ph || ql > qh) continue;
+      if (pl > ph || ql > qh)
+        continue;
       need = std::max(need, sense > 0 ? qh + PANEL_GAP - pl : ph + PANEL_GAP - ql);
     }
-    if (need > 0) m_spots[p].offset[axis] += sense * need;
+    if (need > 0)
+      m_spots[p].offset[axis] += sense * need;
   }
 
   /// Blocks of panels without a known u: their middle goes to u = 0; of two blocks on one side,
@@ -305,7 +328,8 @@ private:
         Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
         bool left = true, right = true;
         for (std::size_t k = 0; k < count(); ++k) {
-          if (m_block[k] != block) continue;
+          if (m_block[k] != block)
+            continue;
           const auto b = bounds(k);
           low = low.cwiseMin(b[0]);
           high = high.cwiseMax(b[1]);
@@ -320,13 +344,16 @@ private:
         }
         double shift = -0.5 * (low.x() + high.x());
         double hand = 0;
-        if (right) hand = -1;
-        if (left) hand = 1;
+        if (right)
+          hand = -1;
+        if (left)
+          hand = 1;
         const double sense = hand * (side == Side::BACK ? -1.0 : 1.0);
         if (region == Region::TRUNK && side != Side::RING && sense != 0)
           shift = sense > 0 ? 0.5 * PANEL_GAP - low.x() : -0.5 * PANEL_GAP - high.x();
         for (std::size_t k = 0; k < count(); ++k)
-          if (m_block[k] == block) m_spots[k].offset.x() += shift;
+          if (m_block[k] == block)
+            m_spots[k].offset.x() += shift;
       }
     }
   }
@@ -343,13 +370,13 @@ private:
 } // namespace
 
 Vec2 laid(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int vertex) {
-  return role.turn * mesh.pattern[static_cast<std::size_t>(vertex)] + spot.offset;
+  return role.turn * mesh.pattern[vertex] + spot.offset;
 }
 
 std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot,
                                 int panel) {
   std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
-  for (int v : mesh.panels[static_cast<std::size_t>(panel)].outline) {
+  for (int v : mesh.panels[panel].outline) {
     const Vec2 p = laid(mesh, role, spot, v);
     b[0] = b[0].cwiseMin(p);
     b[1] = b[1].cwiseMax(p);
@@ -359,7 +386,7 @@ std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, co
 
 double covered(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel,
                double v) {
-  const auto& outline = mesh.panels[static_cast<std::size_t>(panel)].outline;
+  const auto& outline = mesh.panels[panel].outline;
   std::vector<double> at;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2 p = laid(mesh, role, spot, outline[i]),
@@ -369,7 +396,8 @@ double covered(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& sp
   }
   std::sort(at.begin(), at.end());
   double sum = 0;
-  for (std::size_t i = 0; i + 1 < at.size(); i += 2) sum += at[i + 1] - at[i];
+  for (std::size_t i = 0; i + 1 < at.size(); i += 2)
+    sum += at[i + 1] - at[i];
   return sum;
 }
 

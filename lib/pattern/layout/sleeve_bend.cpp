@@ -24,7 +24,8 @@ double reach_at(const std::vector<std::vector<Vec2>>& outlines, double sign, dou
   for (const auto& loop : outlines)
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const Vec2 &a = loop[k], &b = loop[(k + 1) % loop.size()];
-      if ((a.y() <= height) == (b.y() <= height)) continue;
+      if ((a.y() <= height) == (b.y() <= height))
+        continue;
       most = std::max(most, sign * (a.x() + (height - a.y()) / (b.y() - a.y()) * (b.x() - a.x())));
     }
   return most;
@@ -44,7 +45,8 @@ std::optional<SleeveBend> SleeveBend::find(const std::vector<std::vector<Vec2>>&
   double trunk = 1e300, crook = low;
   for (double y = low + 0.5 * SLEEVE_ROW; y < high; y += SLEEVE_ROW) {
     const double reach = reach_at(outlines, sign, y);
-    if (reach <= 0) continue;
+    if (reach <= 0)
+      continue;
     if (y < shoulder.y() && reach < trunk + SLEEVE_ROW) {
       trunk = std::min(trunk, reach);
       crook = y;
@@ -52,7 +54,8 @@ std::optional<SleeveBend> SleeveBend::find(const std::vector<std::vector<Vec2>>&
   }
   for (double y = crook; y < high; y += SLEEVE_ROW)
     tip = std::max(tip, reach_at(outlines, sign, y)); // flares are below
-  if (!(tip > std::max(trunk, sign * shoulder.x()) + SLEEVE_LEAST)) return std::nullopt;
+  if (!(tip > std::max(trunk, sign * shoulder.x()) + SLEEVE_LEAST))
+    return std::nullopt;
   Vec2 end = Vec2::Zero();
   double n = 0;
   for (const auto& loop : outlines)
@@ -61,7 +64,8 @@ std::optional<SleeveBend> SleeveBend::find(const std::vector<std::vector<Vec2>>&
         end += p;
         ++n;
       }
-  if (n == 0) return std::nullopt;
+  if (n == 0)
+    return std::nullopt;
   end /= n;
   SleeveBend bend;
   bend.m_sign = sign;
@@ -75,15 +79,21 @@ std::optional<SleeveBend> SleeveBend::find(const std::vector<std::vector<Vec2>>&
 Vec2 SleeveBend::at(const Vec2& p) const {
   const Vec2 q(m_sign * (p.x() - m_shoulder.x()), p.y() - m_shoulder.y());
   const double r = q.norm();
-  if (r < 1e-9) return p;
+  if (r < 1e-9)
+    return p;
   double from_axis = std::atan2(q.y(), q.x()) - m_axis;
-  if (from_axis > units::PI) from_axis -= 2 * units::PI;
-  if (from_axis < -units::PI) from_axis += 2 * units::PI;
+  if (from_axis > units::PI)
+    from_axis -= 2 * units::PI;
+  if (from_axis < -units::PI)
+    from_axis += 2 * units::PI;
   double share = 0; // of the angle: whole near the axis, falling to both ends, so that the order of
                     // angles is kept
-  if (std::abs(from_axis) <= STIFF) share = 1;
-  else if (from_axis < 0) share = std::max(0.0, (from_axis - LOW_END) / (-STIFF - LOW_END));
-  else share = std::max(0.0, (HIGH_END - from_axis) / (HIGH_END - STIFF));
+  if (std::abs(from_axis) <= STIFF)
+    share = 1;
+  else if (from_axis < 0)
+    share = std::max(0.0, (from_axis - LOW_END) / (-STIFF - LOW_END));
+  else
+    share = std::max(0.0, (HIGH_END - from_axis) / (HIGH_END - STIFF));
   const double below = std::clamp((m_crook - p.y()) / FADE, 0.0, 1.0);
   const double turn = m_angle * share * (1 - below * below * (3 - 2 * below));
   return {m_shoulder.x() + m_sign * (std::cos(turn) * q.x() - std::sin(turn) * q.y()),

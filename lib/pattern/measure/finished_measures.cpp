@@ -50,7 +50,8 @@ std::string edge_at(const Panel& panel, const Vec2& p) {
 std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) {
   DisjointSets sewn(mesh.pattern.size());
   for (const MeshSeam& s : mesh.seams)
-    for (std::size_t k = 0; k < s.a.size(); ++k) sewn.unite_into(s.a[k], s.b[k]);
+    for (std::size_t k = 0; k < s.a.size(); ++k)
+      sewn.unite_into(s.a[k], s.b[k]);
   struct Side {
     int a, b, panel, n;
   };
@@ -59,8 +60,7 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
     for (int t = mesh.panels[p].first_triangle;
          t < mesh.panels[p].first_triangle + mesh.panels[p].n_triangles; ++t)
       for (std::size_t k = 0; k < 3; ++k) {
-        const int a = mesh.triangles[static_cast<std::size_t>(t)][k],
-                  b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
+        const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
         const int ra = sewn.find(a), rb = sewn.find(b);
         Side& side = sides
                          .try_emplace({std::min(ra, rb), std::max(ra, rb)},
@@ -70,24 +70,24 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
       }
   DisjointSets loops(mesh.pattern.size());
   for (const auto& [ends, side] : sides)
-    if (side.n == 1) loops.unite_into(ends.first, ends.second);
+    if (side.n == 1)
+      loops.unite_into(ends.first, ends.second);
   std::map<int, Opening> found;
   std::map<int, std::map<int, std::set<std::string>>> names; // by opening, panel
   for (const auto& [ends, side] : sides) {
-    if (side.n != 1) continue;
+    if (side.n != 1)
+      continue;
     const int id = loops.find(ends.first);
-    const Vec2 &a = mesh.pattern[static_cast<std::size_t>(side.a)],
-               &b = mesh.pattern[static_cast<std::size_t>(side.b)];
+    const Vec2 &a = mesh.pattern[side.a], &b = mesh.pattern[side.b];
     found[id].length += (a - b).norm();
     found[id].rim.push_back({side.a, side.b});
-    names[id][side.panel].insert(
-        edge_at(pattern.panels[static_cast<std::size_t>(side.panel)], 0.5 * (a + b)));
+    names[id][side.panel].insert(edge_at(pattern.panels[side.panel], 0.5 * (a + b)));
   }
   std::vector<Opening> out;
   for (auto& [id, opening] : found) {
     for (const auto& [panel, edges] : names[id])
       for (const std::string& edge : edges)
-        opening.edges.push_back(pattern.panels[static_cast<std::size_t>(panel)].name + ": " + edge);
+        opening.edges.push_back(pattern.panels[panel].name + ": " + edge);
     out.push_back(std::move(opening));
   }
   std::stable_sort(out.begin(), out.end(),
@@ -111,7 +111,8 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
   for (const Panel& p : pattern.panels)
     for (const auto& loop : p.loops) {
       std::vector<Path> paths;
-      for (const PanelEdge& e : loop) paths.push_back(e.path);
+      for (const PanelEdge& e : loop)
+        paths.push_back(e.path);
       out.cloth_m2 += signed_area(paths);
     }
   return out;

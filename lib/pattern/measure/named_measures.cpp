@@ -39,25 +39,33 @@ public:
         m_trunk(mesh, trunk_cloth(mesh, m_graph, m_roles)),
         m_left_arm(mesh, panels_of(Region::ARM_L)), m_height(heights(pattern)) {
     for (std::size_t v = 0; v < m_height.size(); ++v) {
-      if (std::isnan(m_height[v])) continue;
+      if (std::isnan(m_height[v]))
+        continue;
       m_bottom = std::min(m_bottom, m_height[v]);
       if (tells_height(static_cast<int>(v)) && m_height[v] > m_top) {
         m_top = m_height[v];
         m_highest = v;
       }
     }
-    if (m_top <= m_bottom) return;
+    if (m_top <= m_bottom)
+      return;
     m_shoulder = shoulders();
-    if (m_shoulder > 0) depth_below_chest();
-    else depth_below_waist();
+    if (m_shoulder > 0)
+      depth_below_chest();
+    else
+      depth_below_waist();
   }
 
   std::vector<NamedMeasure> named() {
-    if (m_top <= m_bottom || m_mesh.seams.empty()) return {}; // pieces of cloth
-    if (m_shoulder > 0) upper();
-    else lower();
+    if (m_top <= m_bottom || m_mesh.seams.empty())
+      return {}; // pieces of cloth
+    if (m_shoulder > 0)
+      upper();
+    else
+      lower();
     lengths();
-    if (m_shoulder > 0) neck();
+    if (m_shoulder > 0)
+      neck();
     add("hem", hem_length(), "around the lowest opening");
     sleeve();
     return std::move(m_out);
@@ -66,7 +74,8 @@ public:
   std::vector<std::array<double, 2>> around() const {
     std::vector<std::array<double, 2>> out;
     double deepest = 0;
-    for (double d : m_depth) deepest = std::max(deepest, std::isnan(d) ? 0 : d);
+    for (double d : m_depth)
+      deepest = std::max(deepest, std::isnan(d) ? 0 : d);
     for (double depth = 0.05; depth < deepest - 1e-9; depth += 0.05)
       out.push_back({depth, m_trunk.around(m_depth, depth).length});
     return out;
@@ -74,23 +83,18 @@ public:
 
 private:
   void add(const std::string& name, double value, const std::string& how) {
-    if (value > 0.01) m_out.push_back({name, value, how});
+    if (value > 0.01)
+      m_out.push_back({name, value, how});
   }
-  double height(int v) const { return m_height[static_cast<std::size_t>(v)]; }
+  double height(int v) const { return m_height[v]; }
   /// Height below which a seam goes: as far as the cloth hangs, not as it is drawn.
-  double level(int v) const {
-    return m_depth.empty() ? height(v) : m_top - m_depth[static_cast<std::size_t>(v)];
-  }
+  double level(int v) const { return m_depth.empty() ? height(v) : m_top - m_depth[v]; }
   bool arm(int panel) const {
     return region(panel) == Region::ARM_L || region(panel) == Region::ARM_R;
   }
-  Region region(int panel) const { return m_roles[static_cast<std::size_t>(panel)].region; }
-  const PanelRole& role(int panel) const { return m_roles[static_cast<std::size_t>(panel)]; }
-  double drawn(int v, int w) const {
-    return (m_mesh.pattern[static_cast<std::size_t>(v)] -
-            m_mesh.pattern[static_cast<std::size_t>(w)])
-        .norm();
-  }
+  Region region(int panel) const { return m_roles[panel].region; }
+  const PanelRole& role(int panel) const { return m_roles[panel]; }
+  double drawn(int v, int w) const { return (m_mesh.pattern[v] - m_mesh.pattern[w]).norm(); }
 
   /// Skirts need not be drawn as they hang: where there is a bodice, that tells.
   bool tells_height(int v) const {
@@ -99,7 +103,8 @@ private:
 
   std::vector<bool> panels_of(Region wanted) const {
     std::vector<bool> out;
-    for (const PanelRole& r : m_roles) out.push_back(r.region == wanted);
+    for (const PanelRole& r : m_roles)
+      out.push_back(r.region == wanted);
     return out;
   }
 
@@ -122,7 +127,7 @@ private:
   /// begins, on whatever edges they are drawn.
   template<class Wanted> std::vector<SeamLine> upright_lines(const Wanted& wanted) const {
     std::vector<SeamLine> lines;
-    const int n = static_cast<int>(m_roles.size());
+    const int n = std::ssize(m_roles);
     for (int p = 0; p < n; ++p)
       for (int q = p; q < n; ++q) {
         if (region(p) != Region::TRUNK || region(q) != Region::TRUNK || !wanted(role(p), role(q)))
@@ -141,14 +146,16 @@ private:
           line.first = line.length;
           line.top = m_trunk.welded(top);
           line.bottom = m_trunk.welded(bottom);
-          if (line.high - line.low > RISES * line.length) lines.push_back(line);
+          if (line.high - line.low > RISES * line.length)
+            lines.push_back(line);
         }
       }
     for (bool joined = true; joined;) {
       joined = false;
       for (std::size_t i = 0; i < lines.size() && !joined; ++i)
         for (std::size_t j = 0; j < lines.size() && !joined; ++j) {
-          if (i == j || lines[i].bottom != lines[j].top) continue;
+          if (i == j || lines[i].bottom != lines[j].top)
+            continue;
           lines[i].bottom = lines[j].bottom;
           lines[i].low = lines[j].low;
           lines[i].length += lines[j].length;
@@ -164,7 +171,7 @@ private:
   double shoulders() const {
     double length = 0;
     bool hung = false;
-    for (int k = 0; k < static_cast<int>(m_roles.size()); ++k) {
+    for (int k = 0; k < std::ssize(m_roles); ++k) {
       hung = hung || region(k) != Region::TRUNK;
       if (region(k) != Region::TRUNK || role(k).side != Side::FRONT || role(k).part == "lower_body")
         continue; // a circle skirt's sides may be drawn level
@@ -181,7 +188,8 @@ private:
         }
       }
     }
-    if (length > 0) return length;
+    if (length > 0)
+      return length;
     return hung ? 1e-6 : 0;
   }
 
@@ -216,14 +224,17 @@ private:
     Field start(m_mesh.pattern.size(), UNKNOWN);
     for (const auto& side : opening.rim)
       for (int v : side)
-        if (!std::isnan(height(v))) start[static_cast<std::size_t>(v)] = 0;
+        if (!std::isnan(height(v)))
+          start[v] = 0;
     return start;
   }
 
   double hem_length() const {
     const Opening* hem = trunk_opening(false);
-    if (!hem) return 0;
-    if (!one_opening()) return hem->length;
+    if (!hem)
+      return 0;
+    if (!one_opening())
+      return hem->length;
     double sum = 0; // what is level of its lower part
     for (const auto& [a, b] : hem->rim)
       if (height(a) < m_bottom + 0.25 * (m_top - m_bottom) &&
@@ -235,19 +246,22 @@ private:
   /// The level of the armholes' lower end; of what has none, its top.
   double armhole() const {
     double level = 1e300;
-    for (int p = 0; p < static_cast<int>(m_roles.size()); ++p)
+    for (int p = 0; p < std::ssize(m_roles); ++p)
       for (int q : m_graph.neighbours(p))
         if (region(p) == Region::TRUNK && arm(q))
           for (const auto& seam : m_graph.between(p, q))
             for (const auto& s : seam)
               level = std::isnan(height(s[0])) ? level : std::min(level, height(s[0]));
-    if (level < 1e299) return level;
+    if (level < 1e299)
+      return level;
     const Opening *top = trunk_opening(true), *hem = trunk_opening(false);
     for (const Opening& o : m_openings)
       if (&o != top && &o != hem)
         for (const auto& side : o.rim)
-          for (int v : side) level = std::isnan(height(v)) ? level : std::min(level, height(v));
-    if (level < 1e299) return level;
+          for (int v : side)
+            level = std::isnan(height(v)) ? level : std::min(level, height(v));
+    if (level < 1e299)
+      return level;
     level = m_top; // a front that is open: where the side seams begin
     double longest = 0;
     for (const SeamLine& line : upright_lines(side_seams))
@@ -276,10 +290,12 @@ private:
   /// Levels of what hangs on the waist: along the cloth from its top.
   void depth_below_waist() {
     const Opening* top = trunk_opening(true);
-    if (top && !one_opening()) m_depth = m_trunk.distance_from(from_rim(*top));
+    if (top && !one_opening())
+      m_depth = m_trunk.distance_from(from_rim(*top));
     else {
       m_depth = m_height;
-      for (double& d : m_depth) d = m_top - d;
+      for (double& d : m_depth)
+        d = m_top - d;
     }
   }
 
@@ -288,10 +304,10 @@ private:
   double hem_depth(double deeper) const {
     double depth = 1e300;
     for (const Opening& o : m_openings) {
-      if (o.length < EYELET) continue;
+      if (o.length < EYELET)
+        continue;
       for (const auto& [a, b] : o.rim) {
-        const double at_a = m_depth[static_cast<std::size_t>(a)],
-                     at_b = m_depth[static_cast<std::size_t>(b)];
+        const double at_a = m_depth[a], at_b = m_depth[b];
         if (std::min(at_a, at_b) > deeper && std::abs(at_a - at_b) < RISES * drawn(a, b))
           depth = std::min({depth, at_a, at_b});
       }
@@ -318,7 +334,8 @@ private:
     const double chest = m_top - m_chest;
     add("chest", m_trunk.around(m_depth, chest).length, "around, 2.5 cm below the armholes");
     const auto [waist, girth] = extreme(chest + 0.10, chest + 0.25, false);
-    if (girth <= 0) return;
+    if (girth <= 0)
+      return;
     add("waist", girth, "around, narrowest from 10 to 25 cm below the chest");
     add("hip", extreme(waist + 0.15, waist + 0.25, true).second,
         "around, widest from 15 to 25 cm below the waist");
@@ -329,18 +346,20 @@ private:
     add("waist", top && !one_opening() ? top->length : m_trunk.around(m_depth, NEAR_TOP).length,
         "around the top");
     int crotch = -1;
-    for (int p = 0; p < static_cast<int>(m_roles.size()); ++p)
+    for (int p = 0; p < std::ssize(m_roles); ++p)
       for (int q : m_graph.neighbours(p)) {
-        if (!is_leg(role(p)) || !is_leg(role(q)) || role(p).part == role(q).part) continue;
+        if (!is_leg(role(p)) || !is_leg(role(q)) || role(p).part == role(q).part)
+          continue;
         for (const auto& seam : m_graph.between(p, q))
           for (const auto& s : seam)
-            if (crotch < 0 || height(s[0]) < height(crotch)) crotch = s[0];
+            if (crotch < 0 || height(s[0]) < height(crotch))
+              crotch = s[0];
       }
     if (crotch < 0) {
       add("hip", extreme(0.15, 0.25, true).second, "around, widest from 15 to 25 cm below the top");
       return;
     }
-    const double lowest = std::min(0.25, m_depth[static_cast<std::size_t>(crotch)] - ABOVE_CROTCH);
+    const double lowest = std::min(0.25, m_depth[crotch] - ABOVE_CROTCH);
     add("hip", extreme(std::min(0.15, lowest), lowest, true).second,
         "around, widest from 15 to 25 cm below the top and 7.5 cm above the crotch");
     legs(crotch);
@@ -354,7 +373,8 @@ private:
     };
     for (const SeamLine& line : upright_lines(middle)) // of legs in one piece the back's middle
                                                        // seam is one of them, and the longer one
-      if (line.high - line.low > 0.05) rise = rise > 0 ? std::min(rise, line.length) : line.length;
+      if (line.high - line.low > 0.05)
+        rise = rise > 0 ? std::min(rise, line.length) : line.length;
     for (const SeamLine& line : upright_lines([](const PanelRole&a, const PanelRole&b) {
            return a.part == "leg_l" && b.part == "leg_l";
          }))
@@ -377,11 +397,12 @@ private:
     double length = m_top - m_bottom;
     if (hem && !one_opening()) { // the shortest path there
       const Field distance = m_shoulder > 0 ? m_trunk.distance_from(from_rim(*hem)) : m_depth;
-      if (m_shoulder > 0) length = distance[m_highest];
+      if (m_shoulder > 0)
+        length = distance[m_highest];
       else {
         length = 1e300;
         for (const auto& side : hem->rim)
-          if (const double d = distance[static_cast<std::size_t>(side[0])]; !std::isnan(d))
+          if (const double d = distance[side[0]]; !std::isnan(d))
             length = std::min(length, d);
       }
     }
@@ -399,16 +420,19 @@ private:
   /// Where a collar is sewn on; of what has none, its highest opening.
   void neck() {
     double sum = 0;
-    for (int p = 0; p < static_cast<int>(m_roles.size()); ++p)
+    for (int p = 0; p < std::ssize(m_roles); ++p)
       for (int q : m_graph.neighbours(p)) {
-        if (region(p) != Region::NECK || region(q) != Region::TRUNK) continue;
+        if (region(p) != Region::NECK || region(q) != Region::TRUNK)
+          continue;
         for (const auto& seam : m_graph.between(p, q))
           for (std::size_t s = 1; s < seam.size(); ++s)
             sum += 0.5 * (drawn(seam[s][0], seam[s - 1][0]) + drawn(seam[s][1], seam[s - 1][1]));
       }
-    if (sum > 0) return add("neck", sum, "along the collar's seam");
+    if (sum > 0)
+      return add("neck", sum, "along the collar's seam");
     const Opening* o = trunk_opening(true);
-    if (o && !one_opening()) add("neck", o->length, "around the highest opening");
+    if (o && !one_opening())
+      add("neck", o->length, "around the highest opening");
   }
 
   void sleeve() {
@@ -419,19 +443,20 @@ private:
         high = m_arm_height[v];
         highest = v;
       }
-    if (high < -1e299) return;
-    for (int p = 0; p < static_cast<int>(m_roles.size()); ++p)
+    if (high < -1e299)
+      return;
+    for (int p = 0; p < std::ssize(m_roles); ++p)
       for (int q : m_graph.neighbours(p))
         if (region(p) == Region::ARM_L && region(q) == Region::TRUNK)
           for (const auto& seam : m_graph.between(p, q))
             for (const auto& s : seam)
-              seam_low = std::min(seam_low, m_arm_height[static_cast<std::size_t>(s[0])]);
+              seam_low = std::min(seam_low, m_arm_height[s[0]]);
     const Opening* cuff = nullptr;
     double level = 1e300;
     for (const Opening& o : m_openings) {
       double sum = 0;
       for (const auto& side : o.rim)
-        sum += m_arm_height[static_cast<std::size_t>(side[0])]; // NaN where the trunk takes part
+        sum += m_arm_height[side[0]]; // NaN where the trunk takes part
       if (const double mean = sum / static_cast<double>(o.rim.size()); mean < level) {
         level = mean;
         cuff = &o;
@@ -440,14 +465,16 @@ private:
     if (cuff) {
       Field start(m_arm_height.size(), UNKNOWN);
       for (const auto& side : cuff->rim)
-        for (int v : side) start[static_cast<std::size_t>(v)] = 0;
+        for (int v : side)
+          start[v] = 0;
       if (const double length = m_left_arm.distance_from(start)[highest]; !std::isnan(length))
         add("sleeve", length, "from the sleeve's highest point to its hem");
     }
     if (const SewnCloth::Ring ring = m_left_arm.around(m_arm_height, seam_low - BELOW_SEAM);
         ring.whole)
       add("upper_arm", ring.length, "around, 2.5 cm below the sleeve's seam");
-    if (cuff) add("cuff", cuff->length, "around the sleeve's hem");
+    if (cuff)
+      add("cuff", cuff->length, "around the sleeve's hem");
   }
 
   const PanelMesh& m_mesh;

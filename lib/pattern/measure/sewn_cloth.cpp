@@ -23,13 +23,15 @@ constexpr double AWAY = std::numeric_limits<double>::quiet_NaN();
 /// Least of f(x) + |c - x| over the side from a to b, along which f goes linearly from fa to fb.
 double length_across(const Vec2& a, const Vec2& b, const Vec2& c, double fa, double fb) {
   const double best = std::min(fa + (c - a).norm(), fb + (c - b).norm()), length = (b - a).norm();
-  if (length < 1e-12 || std::abs(fb - fa) >= length) return best;
+  if (length < 1e-12 || std::abs(fb - fa) >= length)
+    return best;
   // Where the path meets the side at the angle that the slope along it asks for.
   const Vec2 along = (b - a) / length;
   const double slope = (fb - fa) / length, at = (c - a).dot(along),
                off = std::abs(along.x() * (c - a).y() - along.y() * (c - a).x());
   const double from = at - off * slope / std::sqrt(1 - slope * slope);
-  if (from <= 0 || from >= length) return best;
+  if (from <= 0 || from >= length)
+    return best;
   return std::min(best, fa + slope * from + std::hypot(at - from, off));
 }
 
@@ -39,19 +41,23 @@ SewnCloth::SewnCloth(const PanelMesh& mesh, std::vector<bool> panels)
     : m_mesh(mesh), m_panels(std::move(panels)), m_weld(mesh.pattern.size()) {
   DisjointSets sewn(m_weld.size());
   for (const MeshSeam& s : mesh.seams)
-    for (std::size_t k = 0; k < s.a.size(); ++k) sewn.unite(s.a[k], s.b[k]);
-  for (std::size_t v = 0; v < m_weld.size(); ++v) m_weld[v] = sewn.find(static_cast<int>(v));
+    for (std::size_t k = 0; k < s.a.size(); ++k)
+      sewn.unite(s.a[k], s.b[k]);
+  for (std::size_t v = 0; v < m_weld.size(); ++v)
+    m_weld[v] = sewn.find(static_cast<int>(v));
 }
 
 /// visit(panel, corners, welded corners) of every triangle that has three corners left.
 template<class F> void SewnCloth::each_triangle(const F& visit) const {
   for (std::size_t p = 0; p < m_mesh.panels.size(); ++p) {
-    if (!m_panels[p]) continue;
+    if (!m_panels[p])
+      continue;
     const PanelInfo& info = m_mesh.panels[p];
     for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t) {
-      const Triangle& corners = m_mesh.triangles[static_cast<std::size_t>(t)];
+      const Triangle& corners = m_mesh.triangles[t];
       const Triangle w = {welded(corners[0]), welded(corners[1]), welded(corners[2])};
-      if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) visit(p, corners, w);
+      if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0])
+        visit(p, corners, w);
     }
   }
 }
@@ -66,12 +72,13 @@ Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted
     const Vec2 up = roles[panel].turn.row(1).transpose();
     std::array<Vec2, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = m_mesh.pattern[static_cast<std::size_t>(corners[k])];
-      there[static_cast<std::size_t>(w[k])] = true;
+      p[k] = m_mesh.pattern[corners[k]];
+      there[w[k]] = true;
     }
     const double twice =
         (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
-    if (std::abs(twice) < 1e-12) return;
+    if (std::abs(twice) < 1e-12)
+      return;
     std::array<Vec2, 3> slope;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 side = p[(k + 2) % 3] - p[(k + 1) % 3];
@@ -85,16 +92,17 @@ Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted
     }
   });
   for (long v = 0; v < n; ++v) {
-    const double held = there[static_cast<std::size_t>(v)] ? HOLD_HEIGHT : 1;
+    const double held = there[v] ? HOLD_HEIGHT : 1;
     entries.emplace_back(v, v, held);
-    right(v) += held * wanted[static_cast<std::size_t>(v)];
+    right(v) += held * wanted[v];
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::VectorXd solved = SparseSolver(matrix).solve(right);
   Field field(m_weld.size(), AWAY);
   for (std::size_t v = 0; v < field.size(); ++v)
-    if (there[static_cast<std::size_t>(m_weld[v])]) field[v] = solved(m_weld[v]);
+    if (there[m_weld[v]])
+      field[v] = solved(m_weld[v]);
   return field;
 }
 
@@ -103,30 +111,30 @@ Field SewnCloth::distance_from(const Field& start) const {
       m_weld.size()); // corners of the mesh, by the welded first
   each_triangle([&](std::size_t, const Triangle& c, const Triangle& w) {
     for (std::size_t k = 0; k < 3; ++k)
-      fan[static_cast<std::size_t>(w[k])].push_back({c[k], c[(k + 1) % 3], c[(k + 2) % 3]});
+      fan[w[k]].push_back({c[k], c[(k + 1) % 3], c[(k + 2) % 3]});
   });
   std::vector<double> best(m_weld.size(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<bool> fixed(m_weld.size(), false);
-  const auto at = [&](int v) -> double& { return best[static_cast<std::size_t>(welded(v))]; };
+  const auto at = [&](int v) -> double& { return best[welded(v)]; };
   for (std::size_t v = 0; v < start.size(); ++v)
     if (!std::isnan(start[v]) && start[v] < at(static_cast<int>(v))) {
       at(static_cast<int>(v)) = start[v];
-      fixed[static_cast<std::size_t>(m_weld[v])] = true;
+      fixed[m_weld[v]] = true;
       queue.emplace(start[v], m_weld[v]);
     }
-  const auto drawn = [&](int v) -> const Vec2& {
-    return m_mesh.pattern[static_cast<std::size_t>(v)];
-  };
+  const auto drawn = [&](int v) -> const Vec2& { return m_mesh.pattern[v]; };
   while (!queue.empty()) { // a vertex comes again whenever a shorter path to it is found
     const auto [value, v] = queue.top();
     queue.pop();
-    if (value > best[static_cast<std::size_t>(v)]) continue;
-    for (const auto& [a, b, c] : fan[static_cast<std::size_t>(v)])
+    if (value > best[v])
+      continue;
+    for (const auto& [a, b, c] : fan[v])
       for (const auto& [from, other, to] :
            {std::array<int, 3>{a, c, b}, std::array<int, 3>{a, b, c}}) {
-        if (fixed[static_cast<std::size_t>(welded(to))]) continue;
+        if (fixed[welded(to)])
+          continue;
         double length = at(from) + (drawn(to) - drawn(from)).norm();
         if (std::isfinite(at(other)))
           length = std::min(
@@ -139,7 +147,8 @@ Field SewnCloth::distance_from(const Field& start) const {
   }
   Field field(m_weld.size(), AWAY);
   for (std::size_t v = 0; v < field.size(); ++v)
-    if (const double d = best[static_cast<std::size_t>(m_weld[v])]; std::isfinite(d)) field[v] = d;
+    if (const double d = best[m_weld[v]]; std::isfinite(d))
+      field[v] = d;
   return field;
 }
 
@@ -151,7 +160,8 @@ SewnCloth::Ring SewnCloth::around(const Field& field, double level,
   std::map<std::pair<int, int>, Crossed> crossed; // sides of triangles, by welded ends
   Ring ring;
   each_triangle([&](std::size_t p, const Triangle& corners, const Triangle& w) {
-    if (panel && !panel(static_cast<int>(p))) return;
+    if (panel && !panel(static_cast<int>(p)))
+      return;
     std::vector<Vec2> ends;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t i = static_cast<std::size_t>(corners[k]),
@@ -166,7 +176,8 @@ SewnCloth::Ring SewnCloth::around(const Field& field, double level,
       side.a = corners[k];
       side.b = corners[(k + 1) % 3];
     }
-    if (ends.size() == 2) ring.length += (ends[1] - ends[0]).norm();
+    if (ends.size() == 2)
+      ring.length += (ends[1] - ends[0]).norm();
   });
   ring.whole = ring.length > 0;
   for (const auto& [ends, side] : crossed)
@@ -183,13 +194,13 @@ std::vector<bool> trunk_cloth(const PanelMesh& mesh, const SeamGraph& graph,
   std::vector<double> area(roles.size(), 0);
   std::map<int, double> of_layer;
   for (std::size_t k = 0; k < roles.size(); ++k) {
-    if (roles[k].region != Region::TRUNK) continue;
+    if (roles[k].region != Region::TRUNK)
+      continue;
     const PanelInfo& info = mesh.panels[k];
     for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t) {
       std::array<Vec2, 3> p;
       for (std::size_t i = 0; i < 3; ++i)
-        p[i] =
-            mesh.pattern[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][i])];
+        p[i] = mesh.pattern[mesh.triangles[t][i]];
       area[k] += 0.5 * std::abs((p[1] - p[0]).x() * (p[2] - p[0]).y() -
                                 (p[1] - p[0]).y() * (p[2] - p[0]).x());
     }
@@ -200,12 +211,14 @@ std::vector<bool> trunk_cloth(const PanelMesh& mesh, const SeamGraph& graph,
   for (std::size_t round = 0; round < piece.size(); ++round)
     for (std::size_t k = 0; k < piece.size(); ++k)
       for (int q : graph.neighbours(static_cast<int>(k)))
-        piece[k] = std::min(piece[k], piece[static_cast<std::size_t>(q)]);
+        piece[k] = std::min(piece[k], piece[q]);
   std::map<int, double> of_piece;
-  for (std::size_t k = 0; k < area.size(); ++k) of_piece[piece[k]] += area[k];
+  for (std::size_t k = 0; k < area.size(); ++k)
+    of_piece[piece[k]] += area[k];
   const auto more = [](const auto& a, const auto& b) { return a.second < b.second; };
   std::vector<bool> out(roles.size(), false);
-  if (of_layer.empty()) return out;
+  if (of_layer.empty())
+    return out;
   const int layer = std::max_element(of_layer.begin(), of_layer.end(), more)->first;
   const double most = std::max_element(of_piece.begin(), of_piece.end(), more)->second;
   for (std::size_t k = 0; k < out.size(); ++k)

@@ -21,7 +21,7 @@ public:
   SewnCloth(const PanelMesh& mesh, std::vector<bool> panels);
 
   int welded(int vertex) const {
-    return m_weld[static_cast<std::size_t>(vertex)];
+    return m_weld[vertex];
   } ///< the same for vertices that are sewn together
 
   /// Height whose slope is as close as can be to that of each panel's v axis: level lines run on

@@ -32,7 +32,8 @@ public:
     const double total = std::max(side_length(pattern, runs), 1e-12);
     double sum = 0;
     m_corners.push_back(0);
-    for (const Run& run : runs) m_corners.push_back((sum += run_length(pattern, run)) / total);
+    for (const Run& run : runs)
+      m_corners.push_back((sum += run_length(pattern, run)) / total);
     m_corners.back() = 1;
   }
   const std::vector<double>& corners() const { return m_corners; } ///< 0, run ends, 1
@@ -40,13 +41,16 @@ public:
   Run stretch(double u0, double u1) const {
     std::size_t k = 0;
     const double middle = 0.5 * (u0 + u1);
-    while (k + 2 < m_corners.size() && m_corners[k + 1] < middle) ++k;
+    while (k + 2 < m_corners.size() && m_corners[k + 1] < middle)
+      ++k;
     Run run = (*m_runs)[k];
     const double span = m_corners[k + 1] - m_corners[k];
     const auto fraction = [&](double u) {
       double f = span > 0 ? (u - m_corners[k]) / span : 0;
-      if (f < SAME) f = 0;
-      if (f > 1 - SAME) f = 1;
+      if (f < SAME)
+        f = 0;
+      if (f > 1 - SAME)
+        f = 1;
       return run.from + f * (run.to - run.from);
     };
     const double from = fraction(u0), to = fraction(u1);
@@ -67,7 +71,8 @@ std::vector<std::array<double, 2>> matched_breaks(const Side& a, const Side& b, 
   std::size_t j = 1;
   for (std::size_t i = 1; i + 1 < a.corners().size(); ++i) {
     const double u = a.corners()[i];
-    while (j + 1 < b.corners().size() && b.corners()[j] < u - tolerance) ++j;
+    while (j + 1 < b.corners().size() && b.corners()[j] < u - tolerance)
+      ++j;
     if (j + 1 < b.corners().size() && std::abs(b.corners()[j] - u) <= tolerance &&
         b.corners()[j] > knots.back()[1]) {
       knots.push_back({u, b.corners()[j]});
@@ -99,7 +104,8 @@ struct EdgeVertices {
   std::vector<int> vertex;
   int find(double f) const {
     for (std::size_t k = 0; k < at.size(); ++k)
-      if (std::abs(at[k] - f) < 1e-7) return static_cast<int>(k);
+      if (std::abs(at[k] - f) < 1e-7)
+        return static_cast<int>(k);
     return -1;
   }
 };
@@ -113,18 +119,22 @@ public:
     m_pieces.resize(m_pattern.panels.size());
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p)
       m_pieces[p].resize(static_cast<std::size_t>(m_pattern.panels[p].n_edges()));
-    for (const Panel& panel : m_pattern.panels) m_chord.push_back(chord_limit(panel));
+    for (const Panel& panel : m_pattern.panels)
+      m_chord.push_back(chord_limit(panel));
     m_pairs.resize(m_pattern.seams.size());
     for (std::size_t s = 0; s < m_pattern.seams.size(); ++s)
-      if (m_pattern.seams[s].kind != "pleat") cut_seam(s);
+      if (m_pattern.seams[s].kind != "pleat")
+        cut_seam(s);
     for (std::size_t s = 0; s < m_pattern.seams.size();
          ++s) // their upper layers may be sewn already
-      if (m_pattern.seams[s].kind == "pleat") cut_pleat(s);
+      if (m_pattern.seams[s].kind == "pleat")
+        cut_pleat(s);
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) {
       fill_free(static_cast<int>(p));
       sample_panel(static_cast<int>(p));
     }
-    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s) stitch(s);
+    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s)
+      stitch(s);
     return std::move(m_out);
   }
 
@@ -149,9 +159,10 @@ private:
 
   /// Segments that a run needs on account of its bends.
   int segments_for_bends(const Run& run) const {
-    const double limit = m_chord[static_cast<std::size_t>(run.panel)];
-    if (limit >= m_h) return 0;
-    const ArcLength arc(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
+    const double limit = m_chord[run.panel];
+    if (limit >= m_h)
+      return 0;
+    const ArcLength arc(m_pattern.panels[run.panel].edge(run.edge).path);
     const double s0 = std::min(run.from, run.to) * arc.length(),
                  s1 = std::max(run.from, run.to) * arc.length();
     if (turning(arc, s0, s1) * (s1 - s0) < 0.3 * m_h)
@@ -160,22 +171,21 @@ private:
   }
 
   static int segments_for(double length_a, double length_b, double h) {
-    if (std::max(length_a, length_b) < 0.2 * h) return 0;
+    if (std::max(length_a, length_b) < 0.2 * h)
+      return 0;
     return std::max(1, static_cast<int>(std::lround(std::sqrt(length_a * length_b) / h)));
   }
 
   void add_piece(const Run& run, int n) {
-    auto& pieces =
-        m_pieces[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
+    auto& pieces = m_pieces[run.panel][run.edge];
     const EdgePiece piece{
         run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n, true, {}};
     for (const EdgePiece& other : pieces)
       if (piece.from < other.to - 1e-7 && other.from < piece.to - 1e-7)
         throw input_error(
             "pattern.sewn-twice"_id, m_file, place_of(m_pattern, run),
-            centimetres(
-                (std::min(piece.to, other.to) - std::max(piece.from, other.from)) *
-                length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path)) +
+            centimetres((std::min(piece.to, other.to) - std::max(piece.from, other.from)) *
+                        length(m_pattern.panels[run.panel].edge(run.edge).path)) +
                 " of this edge are sewn twice",
             "let every stretch of an edge be in one seam only");
     pieces.push_back(piece);
@@ -209,19 +219,19 @@ private:
   /// A layer of a pleat takes the cuts of the upper layer, one whole edge of another.
   void cut_pleat(std::size_t s) {
     const Run &layer = m_pattern.seams[s].a[0], &upper = m_pattern.seams[s].b[0];
-    auto& pieces =
-        m_pieces[static_cast<std::size_t>(upper.panel)][static_cast<std::size_t>(upper.edge)];
+    auto& pieces = m_pieces[upper.panel][upper.edge];
     std::sort(pieces.begin(), pieces.end(),
               [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
-    const double total =
-        length(m_pattern.panels[static_cast<std::size_t>(upper.panel)].edge(upper.edge).path);
+    const double total = length(m_pattern.panels[upper.panel].edge(upper.edge).path);
     std::vector<std::pair<double, double>> gaps;
     double at = 0;
     for (const EdgePiece& piece : pieces) {
-      if (piece.from - at > 1e-7) gaps.push_back({at, piece.from});
+      if (piece.from - at > 1e-7)
+        gaps.push_back({at, piece.from});
       at = piece.to;
     }
-    if (1 - at > 1e-7) gaps.push_back({at, 1});
+    if (1 - at > 1e-7)
+      gaps.push_back({at, 1});
     for (const auto& [from, to] : gaps)
       pieces.push_back(
           {upper.panel,
@@ -250,17 +260,17 @@ private:
   }
 
   void fill_free(int p) {
-    auto& edges = m_pieces[static_cast<std::size_t>(p)];
+    auto& edges = m_pieces[p];
     for (std::size_t e = 0; e < edges.size(); ++e) {
       auto& pieces = edges[e];
-      const double total =
-          length(m_pattern.panels[static_cast<std::size_t>(p)].edge(static_cast<int>(e)).path);
+      const double total = length(m_pattern.panels[p].edge(static_cast<int>(e)).path);
       std::sort(pieces.begin(), pieces.end(),
                 [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
       std::vector<EdgePiece> all;
       double at = 0;
       const auto free_to = [&](double to) {
-        if (to - at < 1e-7) return;
+        if (to - at < 1e-7)
+          return;
         EdgePiece piece{p,
                         static_cast<int>(e),
                         at,
@@ -270,7 +280,8 @@ private:
                         {}};
         if (piece.n > 0)
           piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
-        if (piece.n > 0 && m_seam_h < m_h) grade(piece, (to - at) * total);
+        if (piece.n > 0 && m_seam_h < m_h)
+          grade(piece, (to - at) * total);
         if (piece.n == 0)
           m_out.findings.push_back({"mesh.stretch-merged"_id,
                                     place_of(m_pattern, {p, static_cast<int>(e)}) +
@@ -290,20 +301,19 @@ private:
 
   /// Whether a seam ends where this piece begins (or begins where it ends).
   bool meets_seam(const EdgePiece& piece, bool at_start) const {
-    const Panel& panel = m_pattern.panels[static_cast<std::size_t>(piece.panel)];
+    const Panel& panel = m_pattern.panels[piece.panel];
     int edge = piece.edge, first = 0;
     if (at_start ? piece.from > 1e-7 : piece.to < 1 - 1e-7)
       return true; // free stretches end within an edge only where a seam begins
     for (const auto& loop : panel.loops) {
-      const int n = static_cast<int>(loop.size());
+      const int n = std::ssize(loop);
       if (edge < first + n) {
         edge = first + (edge - first + (at_start ? n - 1 : 1)) % n;
         break;
       }
       first += n;
     }
-    const auto& pieces =
-        m_pieces[static_cast<std::size_t>(piece.panel)][static_cast<std::size_t>(edge)];
+    const auto& pieces = m_pieces[piece.panel][edge];
     return std::any_of(pieces.begin(), pieces.end(), [&](const EdgePiece& o) {
       return o.sewn && (at_start ? o.to > 1 - 1e-7 : o.from < 1e-7);
     });
@@ -313,16 +323,18 @@ private:
   /// its bends ask for.
   void grade(EdgePiece& piece, double piece_length) const {
     const bool start = meets_seam(piece, true), end = meets_seam(piece, false);
-    if (!start && !end) return;
+    if (!start && !end)
+      return;
     std::vector<double> inner = graded_fractions(piece_length, m_h, m_seam_h, start, end);
-    if (static_cast<int>(inner.size()) + 1 < piece.n) return;
+    if (static_cast<int>(inner.size()) + 1 < piece.n)
+      return;
     piece.n = static_cast<int>(inner.size()) + 1;
     piece.inner = std::move(inner);
   }
 
   /// Whether anything is sewn to the edges [first, end) of panel p.
   bool sewn(int p, int first, int end) const {
-    const auto& edges = m_pieces[static_cast<std::size_t>(p)];
+    const auto& edges = m_pieces[p];
     return std::any_of(edges.begin() + first, edges.begin() + end,
                        [](const std::vector<EdgePiece>& pieces) {
                          return std::any_of(pieces.begin(), pieces.end(),
@@ -331,7 +343,7 @@ private:
   }
 
   void sample_panel(int p) {
-    const Panel& panel = m_pattern.panels[static_cast<std::size_t>(p)];
+    const Panel& panel = m_pattern.panels[p];
     Boundary::PanelBoundary out;
     m_vertices.emplace_back(static_cast<std::size_t>(panel.n_edges()));
     auto& vertices = m_vertices.back();
@@ -342,7 +354,7 @@ private:
       bool merged = false; // the last vertex stands for the next edge's start as well
       for (const PanelEdge& edge : loop) {
         const ArcLength arc(edge.path);
-        EdgeVertices& ev = vertices[static_cast<std::size_t>(e)];
+        EdgeVertices& ev = vertices[e];
         const auto put = [&](double f) {
           if (!merged) {
             points.push_back(arc.at(f * arc.length()));
@@ -351,9 +363,9 @@ private:
           ev.at.push_back(f);
           ev.vertex.push_back(first_of_loop + static_cast<int>(points.size()) - 1);
         };
-        for (const EdgePiece& piece :
-             m_pieces[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]) {
-          if (ev.at.empty() || !merged) put(piece.from);
+        for (const EdgePiece& piece : m_pieces[p][e]) {
+          if (ev.at.empty() || !merged)
+            put(piece.from);
           else {
             ev.at.push_back(piece.from);
             ev.vertex.push_back(ev.vertex.back());
@@ -361,9 +373,8 @@ private:
           merged = piece.n == 0;
           for (int k = 1; k < piece.n; ++k)
             put(piece.from +
-                (piece.to - piece.from) * (piece.inner.empty()
-                                               ? static_cast<double>(k) / piece.n
-                                               : piece.inner[static_cast<std::size_t>(k - 1)]));
+                (piece.to - piece.from) *
+                    (piece.inner.empty() ? static_cast<double>(k) / piece.n : piece.inner[k - 1]));
         }
         ++e;
       }
@@ -385,18 +396,18 @@ private:
       // Ends: the end of each edge is the start of the next; the last edge ends at the loop's first
       // vertex.
       for (int k = first_edge; k < e; ++k) {
-        EdgeVertices& ev = vertices[static_cast<std::size_t>(k)];
+        EdgeVertices& ev = vertices[k];
         ev.at.push_back(1);
-        ev.vertex.push_back(k + 1 < e ? vertices[static_cast<std::size_t>(k + 1)].vertex.front()
-                                      : first_of_loop);
+        ev.vertex.push_back(k + 1 < e ? vertices[k + 1].vertex.front() : first_of_loop);
       }
       if (merged) { // the loop's last stretch was merged: its vertex and the first are one
         const int last = first_of_loop + n - 1;
         points.pop_back();
         out.edge_of.pop_back();
         for (int k = first_edge; k < e; ++k)
-          for (int& v : vertices[static_cast<std::size_t>(k)].vertex)
-            if (v == last) v = first_of_loop;
+          for (int& v : vertices[k].vertex)
+            if (v == last)
+              v = first_of_loop;
       }
       first_of_loop += static_cast<int>(points.size());
       out.loops.push_back(std::move(points));
@@ -411,31 +422,29 @@ private:
       for (int k = 0; k <= pair.n; ++k) {
         const double t = pair.n == 0 ? 0.0 : static_cast<double>(k) / pair.n;
         const std::array<int, 2> va = vertex_at(pair.a, t), vb = vertex_at(pair.b, t);
-        if (!out.a.empty() && out.a.back() == va && out.b.back() == vb) continue;
+        if (!out.a.empty() && out.a.back() == va && out.b.back() == vb)
+          continue;
         out.a.push_back(va);
         out.b.push_back(vb);
       }
     // A corner both of whose edges are in this seam, sewn to each other: a cone's or a dart's tip.
     for (std::size_t k = 0; k < out.a.size(); ++k)
       if (out.a[k] == out.b[k])
-        m_out.panels[static_cast<std::size_t>(out.a[k][0])]
-            .must_split[static_cast<std::size_t>(out.a[k][1])] = 1;
+        m_out.panels[out.a[k][0]].must_split[out.a[k][1]] = 1;
     // So is the line along which a pleat is folded back: both layers under it are sewn to the same
     // stretch.
     if (m_pattern.seams[s].kind == "pleat" && !out.a.empty())
-      m_out.panels[static_cast<std::size_t>(out.a.back()[0])]
-          .must_split[static_cast<std::size_t>(out.a.back()[1])] = 1;
+      m_out.panels[out.a.back()[0]].must_split[out.a.back()[1]] = 1;
     m_out.seams.push_back(std::move(out));
   }
 
   std::array<int, 2> vertex_at(const Run& run, double t) const {
-    const EdgeVertices& ev =
-        m_vertices[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
+    const EdgeVertices& ev = m_vertices[run.panel][run.edge];
     const int k = ev.find(run.from + (run.to - run.from) * t);
     if (k < 0)
       throw Error(ErrorKind::INTERNAL, "general.internal"_id, m_file, place_of(m_pattern, run),
                   "a stitch has no vertex");
-    return {run.panel, ev.vertex[static_cast<std::size_t>(k)]};
+    return {run.panel, ev.vertex[k]};
   }
 
   const Pattern& m_pattern;

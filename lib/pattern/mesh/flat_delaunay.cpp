@@ -54,7 +54,8 @@ std::vector<std::array<Vec2, 3>> geos_triangles(const std::vector<std::vector<Ve
   const auto destroy = [&](GEOSGeometry* g) { GEOSGeom_destroy_r(geos.context, g); };
   using Handle = std::unique_ptr<GEOSGeometry, decltype(destroy)>;
   std::vector<GEOSGeometry*> holes;
-  for (std::size_t k = 1; k < loops.size(); ++k) holes.push_back(ring(geos, loops[k]));
+  for (std::size_t k = 1; k < loops.size(); ++k)
+    holes.push_back(ring(geos, loops[k]));
   const Handle polygon(GEOSGeom_createPolygon_r(geos.context, ring(geos, loops[0]), holes.data(),
                                                 static_cast<unsigned>(holes.size())),
                        destroy);
@@ -91,32 +92,32 @@ std::vector<std::array<Vec2, 3>> geos_triangles(const std::vector<std::vector<Ve
 FlatDelaunay::FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const std::string& panel) {
   std::map<std::pair<double, double>, int> number;
   for (const auto& loop : loops)
-    for (const Vec2& p : loop) number.emplace(std::pair(p.x(), p.y()), add_point(p));
+    for (const Vec2& p : loop)
+      number.emplace(std::pair(p.x(), p.y()), add_point(p));
   m_n_boundary = static_cast<int>(m_points.size());
   std::map<std::pair<int, int>, std::pair<int, int>> open; // directed edge -> face, k
   for (const auto& corners : geos_triangles(loops, panel)) {
     Face face;
     for (int i = 0; i < 3; ++i) {
-      const auto it = number.find(
-          {corners[static_cast<std::size_t>(i)].x(), corners[static_cast<std::size_t>(i)].y()});
+      const auto it = number.find({corners[i].x(), corners[i].y()});
       if (it == number.end())
         throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", panel,
                     "the triangulation has a point of its own");
       face.v[i] = it->second;
       face.next[i] = -1;
     }
-    if (cross(m_points[static_cast<std::size_t>(face.v[0])],
-              m_points[static_cast<std::size_t>(face.v[1])],
-              m_points[static_cast<std::size_t>(face.v[2])]) < 0)
+    if (cross(m_points[face.v[0]], m_points[face.v[1]], m_points[face.v[2]]) < 0)
       std::swap(face.v[1], face.v[2]);
-    const int f = static_cast<int>(m_faces.size());
+    const int f = std::ssize(m_faces);
     m_faces.push_back(face);
     for (int k = 0; k < 3; ++k) {
       const int a = face.v[(k + 1) % 3], b = face.v[(k + 2) % 3];
-      m_face_of[static_cast<std::size_t>(face.v[k])] = f;
+      m_face_of[face.v[k]] = f;
       const auto twin = open.find({b, a});
-      if (twin == open.end()) open[{a, b}] = {f, k};
-      else link(f, k, twin->second.first, twin->second.second);
+      if (twin == open.end())
+        open[{a, b}] = {f, k};
+      else
+        link(f, k, twin->second.first, twin->second.second);
     }
   }
   legalize_all();
@@ -131,42 +132,44 @@ int FlatDelaunay::add_point(const Vec2& p) {
 }
 
 void FlatDelaunay::link(int face, int k, int other, int other_k) {
-  m_faces[static_cast<std::size_t>(face)].next[k] = other;
-  if (other >= 0) m_faces[static_cast<std::size_t>(other)].next[other_k] = face;
+  m_faces[face].next[k] = other;
+  if (other >= 0)
+    m_faces[other].next[other_k] = face;
 }
 
 int FlatDelaunay::index_in(int face, int vertex) const {
-  const Face& f = m_faces[static_cast<std::size_t>(face)];
-  if (f.v[0] == vertex) return 0;
+  const Face& f = m_faces[face];
+  if (f.v[0] == vertex)
+    return 0;
   return f.v[1] == vertex ? 1 : 2;
 }
 
 int FlatDelaunay::locate(const Vec2& p) const {
   const auto outside = [&](int f, int k) {
-    const Face& face = m_faces[static_cast<std::size_t>(f)];
-    return cross(m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])],
-                 m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])], p) < 0;
+    const Face& face = m_faces[f];
+    return cross(m_points[face.v[(k + 1) % 3]], m_points[face.v[(k + 2) % 3]], p) < 0;
   };
   int f = m_last;
-  for (std::size_t steps = 0; steps < 200 && f >= 0 && m_faces[static_cast<std::size_t>(f)].alive;
-       ++steps) {
+  for (std::size_t steps = 0; steps < 200 && f >= 0 && m_faces[f].alive; ++steps) {
     int side = -1;
     for (int k = 0; k < 3 && side < 0; ++k)
-      if (outside(f, k)) side = k;
-    if (side < 0) return m_last = f;
-    f = m_faces[static_cast<std::size_t>(f)].next[side];
+      if (outside(f, k))
+        side = k;
+    if (side < 0)
+      return m_last = f;
+    f = m_faces[f].next[side];
   }
   // The straight walk left the polygon: look at every face.
-  for (f = 0; f < static_cast<int>(m_faces.size()); ++f)
-    if (m_faces[static_cast<std::size_t>(f)].alive && !outside(f, 0) && !outside(f, 1) &&
-        !outside(f, 2))
+  for (f = 0; f < std::ssize(m_faces); ++f)
+    if (m_faces[f].alive && !outside(f, 0) && !outside(f, 1) && !outside(f, 2))
       return m_last = f;
   return -1;
 }
 
 bool FlatDelaunay::insert(const Vec2& p, bool pinned) {
   const int f = locate(p);
-  if (f < 0) return false;
+  if (f < 0)
+    return false;
   const int v = add_point(p);
   m_pinned.back() = pinned;
   split_face(f, v);
@@ -177,7 +180,7 @@ bool FlatDelaunay::connected(int a, int b) const {
   std::vector<int> faces;
   star(a, faces);
   return std::any_of(faces.begin(), faces.end(), [&](int f) {
-    const Face& face = m_faces[static_cast<std::size_t>(f)];
+    const Face& face = m_faces[f];
     return face.v[0] == b || face.v[1] == b || face.v[2] == b;
   });
 }
@@ -187,9 +190,7 @@ void FlatDelaunay::keep(int a, int b, int depth) {
     m_kept.insert({std::min(a, b), std::max(a, b)});
     return;
   }
-  if (depth == 0 ||
-      !insert(0.5 * (m_points[static_cast<std::size_t>(a)] + m_points[static_cast<std::size_t>(b)]),
-              true))
+  if (depth == 0 || !insert(0.5 * (m_points[a] + m_points[b]), true))
     return;
   const int middle = static_cast<int>(m_points.size()) - 1;
   keep(a, middle, depth - 1);
@@ -202,20 +203,23 @@ void FlatDelaunay::add_line(const std::vector<Vec2>& points) {
     const auto end = m_points.begin() + m_n_boundary;
     const auto on = std::find_if(m_points.begin(), end,
                                  [&](const Vec2& q) { return (p - q).squaredNorm() < 1e-18; });
-    if (on != end) ids.push_back(static_cast<int>(on - m_points.begin()));
-    else ids.push_back(insert(p, true) ? static_cast<int>(m_points.size()) - 1 : -1);
+    if (on != end)
+      ids.push_back(static_cast<int>(on - m_points.begin()));
+    else
+      ids.push_back(insert(p, true) ? static_cast<int>(m_points.size()) - 1 : -1);
   }
   for (std::size_t k = 0; k + 1 < ids.size(); ++k)
-    if (ids[k] >= 0 && ids[k + 1] >= 0) keep(ids[k], ids[k + 1], 2);
+    if (ids[k] >= 0 && ids[k + 1] >= 0)
+      keep(ids[k], ids[k + 1], 2);
 }
 
 void FlatDelaunay::split_face(int face, int vertex) {
-  const Face old = m_faces[static_cast<std::size_t>(face)];
+  const Face old = m_faces[face];
   const int f[3] = {face, static_cast<int>(m_faces.size()), static_cast<int>(m_faces.size()) + 1};
   m_faces.resize(m_faces.size() + 2);
   std::vector<std::pair<int, int>> stack;
   for (int k = 0; k < 3; ++k) { // face k keeps the edge opposite old corner k
-    Face& g = m_faces[static_cast<std::size_t>(f[k])];
+    Face& g = m_faces[f[k]];
     g.v[0] = vertex;
     g.v[1] = old.v[(k + 1) % 3];
     g.v[2] = old.v[(k + 2) % 3];
@@ -223,45 +227,48 @@ void FlatDelaunay::split_face(int face, int vertex) {
     g.next[1] = f[(k + 1) % 3];
     g.next[2] = f[(k + 2) % 3];
     g.alive = true;
-    m_face_of[static_cast<std::size_t>(g.v[1])] = f[k];
+    m_face_of[g.v[1]] = f[k];
     stack.push_back({f[k], 0});
   }
   for (int k = 0; k < 3; ++k)
     if (old.next[k] >= 0) {
-      Face& n = m_faces[static_cast<std::size_t>(old.next[k])];
+      Face& n = m_faces[old.next[k]];
       for (int i = 0; i < 3; ++i)
         if (n.next[i] == face && n.v[i] != old.v[0] && n.v[i] != old.v[1] && n.v[i] != old.v[2] &&
             n.v[(i + 1) % 3] == old.v[(k + 2) % 3])
           n.next[i] = f[k];
     }
-  m_face_of[static_cast<std::size_t>(vertex)] = face;
+  m_face_of[vertex] = face;
   legalize(stack);
 }
 
 void FlatDelaunay::split_edge(int face, int k, int vertex) {
-  const int other = m_faces[static_cast<std::size_t>(face)].next[k];
-  const Face old = m_faces[static_cast<std::size_t>(face)],
-             twin = m_faces[static_cast<std::size_t>(other)];
+  const int other = m_faces[face].next[k];
+  const Face old = m_faces[face], twin = m_faces[other];
   int j = 0;
-  while (twin.next[j] != face || twin.v[(j + 1) % 3] != old.v[(k + 2) % 3]) ++j;
+  while (twin.next[j] != face || twin.v[(j + 1) % 3] != old.v[(k + 2) % 3])
+    ++j;
   const int apex = old.v[k], a = old.v[(k + 1) % 3], b = old.v[(k + 2) % 3], below = twin.v[j];
   if (is_kept(a, b)) { // in two from now on
     m_kept.erase({std::min(a, b), std::max(a, b)});
     m_kept.insert({std::min(a, vertex), std::max(a, vertex)});
     m_kept.insert({std::min(b, vertex), std::max(b, vertex)});
-    m_pinned[static_cast<std::size_t>(vertex)] = 1;
+    m_pinned[vertex] = 1;
   }
   const int f2 = static_cast<int>(m_faces.size()), f3 = f2 + 1;
   m_faces.resize(m_faces.size() + 2);
   const auto set = [&](int f, int v0, int v1, int v2, int n0, int n1, int n2) {
-    m_faces[static_cast<std::size_t>(f)] = Face{{v0, v1, v2}, {n0, n1, n2}, true};
-    for (int v : {v0, v1, v2}) m_face_of[static_cast<std::size_t>(v)] = f;
+    m_faces[f] = Face{{v0, v1, v2}, {n0, n1, n2}, true};
+    for (int v : {v0, v1, v2})
+      m_face_of[v] = f;
   };
   const auto relink = [&](int neighbour, int from, int to, int v1, int v2) {
-    if (neighbour < 0) return;
-    Face& n = m_faces[static_cast<std::size_t>(neighbour)];
+    if (neighbour < 0)
+      return;
+    Face& n = m_faces[neighbour];
     for (int i = 0; i < 3; ++i)
-      if (n.next[i] == from && n.v[(i + 1) % 3] == v1 && n.v[(i + 2) % 3] == v2) n.next[i] = to;
+      if (n.next[i] == from && n.v[(i + 1) % 3] == v1 && n.v[(i + 2) % 3] == v2)
+        n.next[i] = to;
   };
   const int n_bA = old.next[(k + 1) % 3], n_Aa = old.next[(k + 2) % 3]; // across b-apex and apex-a
   const int n_aB = twin.next[(j + 1) % 3],
@@ -277,47 +284,54 @@ void FlatDelaunay::split_edge(int face, int k, int vertex) {
 }
 
 bool FlatDelaunay::wants_flip(int face, int k) const {
-  const Face& f = m_faces[static_cast<std::size_t>(face)];
+  const Face& f = m_faces[face];
   const int other = f.next[k];
-  if (other < 0) return false;
-  const Face& g = m_faces[static_cast<std::size_t>(other)];
+  if (other < 0)
+    return false;
+  const Face& g = m_faces[other];
   int j = 0;
-  while (j < 3 && (g.next[j] != face || g.v[(j + 1) % 3] != f.v[(k + 2) % 3])) ++j;
-  if (j == 3) return false;
+  while (j < 3 && (g.next[j] != face || g.v[(j + 1) % 3] != f.v[(k + 2) % 3]))
+    ++j;
+  if (j == 3)
+    return false;
   const int p = f.v[k], a = f.v[(k + 1) % 3], b = f.v[(k + 2) % 3], q = g.v[j];
-  if (is_kept(a, b)) return false;
+  if (is_kept(a, b))
+    return false;
   if (is_chord(p, q) && !is_chord(a, b))
     return false; // never make a boundary-to-boundary edge where there was none
-  const Vec2 &P = m_points[static_cast<std::size_t>(p)], &A = m_points[static_cast<std::size_t>(a)],
-             &B = m_points[static_cast<std::size_t>(b)], &Q = m_points[static_cast<std::size_t>(q)];
+  const Vec2 &P = m_points[p], &A = m_points[a], &B = m_points[b], &Q = m_points[q];
   const double scale = (A - B).squaredNorm();
-  if (cross(P, A, Q) <= 1e-9 * scale || cross(P, Q, B) <= 1e-9 * scale) return false; // not convex
+  if (cross(P, A, Q) <= 1e-9 * scale || cross(P, Q, B) <= 1e-9 * scale)
+    return false; // not convex
   return in_circle(P, A, B, Q) > 1e-9 * scale * scale;
 }
 
 bool FlatDelaunay::flip(int face, int k) {
-  Face& f = m_faces[static_cast<std::size_t>(face)];
+  Face& f = m_faces[face];
   const int other = f.next[k];
-  Face& g = m_faces[static_cast<std::size_t>(other)];
+  Face& g = m_faces[other];
   int j = 0;
-  while (g.next[j] != face || g.v[(j + 1) % 3] != f.v[(k + 2) % 3]) ++j;
+  while (g.next[j] != face || g.v[(j + 1) % 3] != f.v[(k + 2) % 3])
+    ++j;
   const int p = f.v[k], a = f.v[(k + 1) % 3], b = f.v[(k + 2) % 3], q = g.v[j];
   const int n_bp = f.next[(k + 1) % 3], n_pa = f.next[(k + 2) % 3]; // across b-p, p-a
   const int n_aq = g.next[(j + 1) % 3], n_qb = g.next[(j + 2) % 3]; // g: q, b, a; across a-q, q-b
   const auto relink = [&](int neighbour, int from, int to, int v1, int v2) {
-    if (neighbour < 0) return;
-    Face& n = m_faces[static_cast<std::size_t>(neighbour)];
+    if (neighbour < 0)
+      return;
+    Face& n = m_faces[neighbour];
     for (int i = 0; i < 3; ++i)
-      if (n.next[i] == from && n.v[(i + 1) % 3] == v1 && n.v[(i + 2) % 3] == v2) n.next[i] = to;
+      if (n.next[i] == from && n.v[(i + 1) % 3] == v1 && n.v[(i + 2) % 3] == v2)
+        n.next[i] = to;
   };
   f = Face{{p, a, q}, {n_aq, other, n_pa}, true};
   g = Face{{p, q, b}, {n_qb, n_bp, face}, true};
   relink(n_aq, other, face, q, a);
   relink(n_bp, face, other, p, b);
-  m_face_of[static_cast<std::size_t>(p)] = face;
-  m_face_of[static_cast<std::size_t>(a)] = face;
-  m_face_of[static_cast<std::size_t>(q)] = face;
-  m_face_of[static_cast<std::size_t>(b)] = other;
+  m_face_of[p] = face;
+  m_face_of[a] = face;
+  m_face_of[q] = face;
+  m_face_of[b] = other;
   return true;
 }
 
@@ -328,8 +342,9 @@ void FlatDelaunay::legalize(std::vector<std::pair<int, int>>& stack) {
   while (!stack.empty() && budget-- > 0) {
     const auto [face, k] = stack.back();
     stack.pop_back();
-    if (!m_faces[static_cast<std::size_t>(face)].alive || !wants_flip(face, k)) continue;
-    const int other = m_faces[static_cast<std::size_t>(face)].next[k];
+    if (!m_faces[face].alive || !wants_flip(face, k))
+      continue;
+    const int other = m_faces[face].next[k];
     flip(face, k);
     stack.push_back({face, 0});
     stack.push_back({face, 2});
@@ -341,35 +356,36 @@ void FlatDelaunay::legalize(std::vector<std::pair<int, int>>& stack) {
 void FlatDelaunay::legalize_all() {
   std::vector<std::pair<int, int>> stack;
   for (int f = static_cast<int>(m_faces.size()) - 1; f >= 0; --f)
-    if (m_faces[static_cast<std::size_t>(f)].alive)
+    if (m_faces[f].alive)
       for (int k = 0; k < 3; ++k)
-        if (wants_flip(f, k)) stack.push_back({f, k});
+        if (wants_flip(f, k))
+          stack.push_back({f, k});
   legalize(stack);
 }
 
 void FlatDelaunay::star(int vertex, std::vector<int>& faces) const {
   faces.clear();
-  const int start = m_face_of[static_cast<std::size_t>(vertex)];
+  const int start = m_face_of[vertex];
   int f = start;
   do { // counter-clockwise; on the boundary it stops at an open edge and the other side is added
        // below
     faces.push_back(f);
-    f = m_faces[static_cast<std::size_t>(f)].next[(index_in(f, vertex) + 1) % 3];
+    f = m_faces[f].next[(index_in(f, vertex) + 1) % 3];
   } while (f >= 0 && f != start);
-  if (f == start) return;
-  for (f = m_faces[static_cast<std::size_t>(start)].next[(index_in(start, vertex) + 2) % 3]; f >= 0;
-       f = m_faces[static_cast<std::size_t>(f)].next[(index_in(f, vertex) + 2) % 3])
+  if (f == start)
+    return;
+  for (f = m_faces[start].next[(index_in(start, vertex) + 2) % 3]; f >= 0;
+       f = m_faces[f].next[(index_in(f, vertex) + 2) % 3])
     faces.push_back(f);
 }
 
 double FlatDelaunay::star_quality(const std::vector<int>& faces, int vertex, const Vec2& at) const {
   double worst = 10;
   for (int f : faces) {
-    const Face& face = m_faces[static_cast<std::size_t>(f)];
+    const Face& face = m_faces[f];
     const int k = index_in(f, vertex);
-    worst =
-        std::min(worst, smallest_angle(at, m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])],
-                                       m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])]));
+    worst = std::min(
+        worst, smallest_angle(at, m_points[face.v[(k + 1) % 3]], m_points[face.v[(k + 2) % 3]]));
   }
   return worst;
 }
@@ -385,9 +401,7 @@ void FlatDelaunay::take(std::vector<Vec2>& points, std::vector<Triangle>& triang
     }
   for (const Face& f : m_faces)
     if (f.alive)
-      triangles.push_back({number[static_cast<std::size_t>(f.v[0])],
-                           number[static_cast<std::size_t>(f.v[1])],
-                           number[static_cast<std::size_t>(f.v[2])]});
+      triangles.push_back({number[f.v[0]], number[f.v[1]], number[f.v[2]]});
 }
 
 } // namespace sloper::pattern

@@ -37,13 +37,13 @@ struct Stretch {
 /// Where a line ends on an edge, or a negative number.
 double end_on(const Panel& panel, const InnerLine& line, int edge) {
   for (const Vec2& end : {line.path.front().p[0], line.path.back().p[3]})
-    if (const OnOutline on = on_outline(panel, end); on.edge == edge) return on.at;
+    if (const OnOutline on = on_outline(panel, end); on.edge == edge)
+      return on.at;
   return -1;
 }
 
 Stretch stretch_of(const Panel& panel, const Pleat& pleat, int edge, const std::string& file) {
-  const InnerLine &fold = panel.lines[static_cast<std::size_t>(pleat.fold)],
-                  &target = panel.lines[static_cast<std::size_t>(pleat.target)];
+  const InnerLine &fold = panel.lines[pleat.fold], &target = panel.lines[pleat.target];
   const double f = end_on(panel, fold, edge), t = end_on(panel, target, edge),
                length = pattern::length(panel.edge(edge).path);
   for (const auto& [at, line] : {std::pair(f, &fold), std::pair(t, &target)})
@@ -69,7 +69,8 @@ void check_apart(const Panel& panel, const std::vector<Stretch>& stretches,
   for (std::size_t i = 0; i < stretches.size(); ++i)
     for (std::size_t j = i + 1; j < stretches.size(); ++j) {
       const Stretch &a = stretches[i], &b = stretches[j];
-      if (a.edge != b.edge) continue;
+      if (a.edge != b.edge)
+        continue;
       const double overlap = std::min(std::max(a.target, a.beyond), std::max(b.target, b.beyond)) -
                              std::max(std::min(a.target, a.beyond), std::min(b.target, b.beyond));
       const double metres = overlap * pattern::length(panel.edge(a.edge).path);
@@ -99,7 +100,8 @@ std::vector<char> vertices_on(const Path& line, const PanelMesh& mesh, const Pan
   const ArcLength arc(line);
   const int n = static_cast<int>(std::max(16.0, std::min(2000.0, arc.length() / 0.001)));
   std::vector<Vec2> points;
-  for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
+  for (int k = 0; k <= n; ++k)
+    points.push_back(arc.at(arc.length() * k / n));
   std::vector<char> on(static_cast<std::size_t>(info.n_vertices), 0);
   for (std::size_t v = 0; v < on.size(); ++v) {
     const Vec2& x = mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v];
@@ -119,9 +121,8 @@ void turn_over_whole(const Panel& panel, const PanelMesh& mesh, const PanelInfo&
                                  [](const InnerLine& line) { return line.kind == "roll"; });
   const Vec2 from = roll->path.front().p[0], along = roll->path.back().p[3] - from;
   for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
-    const Vec2 x = mesh.pattern[static_cast<std::size_t>(v)];
-    out.shift[static_cast<std::size_t>(v)] +=
-        2 * (from + (x - from).dot(along) / along.squaredNorm() * along - x);
+    const Vec2 x = mesh.pattern[v];
+    out.shift[v] += 2 * (from + (x - from).dot(along) / along.squaredNorm() * along - x);
   }
 }
 
@@ -129,37 +130,39 @@ void turn_over_whole(const Panel& panel, const PanelMesh& mesh, const PanelInfo&
 void turn_over(const RollLines& rolls, double stands_off, const PanelMesh& mesh,
                const PanelInfo& info, Folding& out) {
   for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
-    const Vec2 x = mesh.pattern[static_cast<std::size_t>(v)];
+    const Vec2 x = mesh.pattern[v];
     const auto [beyond, image] = rolls.across(x);
-    if (!(beyond > 0)) continue;
+    if (!(beyond > 0))
+      continue;
     const double t = std::min(beyond / ROLL_WIDTH, 1.0), off = units::radians(stands_off);
     const Vec2 foot = 0.5 * (x + image);
-    out.shift[static_cast<std::size_t>(v)] += foot + std::cos(off) * (image - foot) - x;
-    out.depth[static_cast<std::size_t>(v)] -= ROLL_DEPTH * t * (2 - t) + std::sin(off) * beyond;
+    out.shift[v] += foot + std::cos(off) * (image - foot) - x;
+    out.depth[v] -= ROLL_DEPTH * t * (2 - t) + std::sin(off) * beyond;
   }
 }
 
 void fold_panel(Pattern& pattern, int p, const std::string& file) {
-  Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
+  Panel& panel = pattern.panels[p];
   panel.lines.erase(std::remove_if(panel.lines.begin(), panel.lines.end(),
                                    [](const InnerLine& l) { return l.kind == "tape"; }),
                     panel.lines.end());
   std::vector<Stretch> stretches;
   for (const Pleat& pleat : panel.pleats)
-    for (int edge : pleat.edges) stretches.push_back(stretch_of(panel, pleat, edge, file));
+    for (int edge : pleat.edges)
+      stretches.push_back(stretch_of(panel, pleat, edge, file));
   check_apart(panel, stretches, file);
   std::vector<InnerLine> middles;
   for (const Pleat& pleat : panel.pleats)
     middles.push_back({pleat.name + "-middle", "fold",
-                       halfway(panel.lines[static_cast<std::size_t>(pleat.fold)].path,
-                               panel.lines[static_cast<std::size_t>(pleat.target)].path)});
+                       halfway(panel.lines[pleat.fold].path, panel.lines[pleat.target].path)});
   panel.lines.insert(panel.lines.end(), middles.begin(), middles.end());
   std::vector<std::pair<int, double>> places;
   for (InnerLine& line : panel.lines)
     for (const bool last : {false, true}) {
       Vec2& end = last ? line.path.back().p[3] : line.path.front().p[0];
       const OnOutline on = on_outline(panel, end);
-      if (on.edge < 0) continue;
+      if (on.edge < 0)
+        continue;
       double at = on.at; // a pleat's middle lies halfway along the edge
       for (const Stretch& s : stretches)
         if (s.edge == on.edge &&
@@ -168,13 +171,15 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
       const ArcLength arc(panel.edge(on.edge).path);
       end = arc.at(at * arc.length());
       Segment& s = last ? line.path.back() : line.path.front();
-      if (s.line) s = Segment::straight(s.p[0], s.p[3]);
+      if (s.line)
+        s = Segment::straight(s.p[0], s.p[3]);
       places.push_back({on.edge, at});
     }
-  for (const Stretch& s : stretches) places.push_back({s.edge, s.beyond});
+  for (const Stretch& s : stretches)
+    places.push_back({s.edge, s.beyond});
   const std::vector<Pleat> pleats = panel.pleats; // the stretches point to these from here on
   for (Stretch& s : stretches)
-    s.pleat = &pleats[static_cast<std::size_t>(s.pleat - panel.pleats.data())];
+    s.pleat = &pleats[s.pleat - panel.pleats.data()];
   const std::vector<Origin> origin = cut_edges(pattern, p, places);
   // What lies under a pleat leaves the seams that were there.
   const auto pieces = [&](const Stretch& s, double from, double to) {
@@ -183,14 +188,16 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
       if (origin[e].edge == s.edge && origin[e].from > std::min(from, to) - 1e-6 &&
           origin[e].to < std::max(from, to) + 1e-6)
         out.push_back({p, static_cast<int>(e), from < to ? 0.0 : 1.0, from < to ? 1.0 : 0.0});
-    if (from > to) std::reverse(out.begin(), out.end());
+    if (from > to)
+      std::reverse(out.begin(), out.end());
     return out;
   };
   for (const Stretch& s : stretches) {
     const std::vector<Run> hidden = pieces(s, s.target, s.fold);
     for (Seam& seam : pattern.seams)
       for (auto* side : {&seam.a, &seam.b}) {
-        if (seam.kind == "pleat") continue;
+        if (seam.kind == "pleat")
+          continue;
         side->erase(std::remove_if(side->begin(), side->end(),
                                    [&](const Run& r) {
                                      return std::any_of(
@@ -209,8 +216,7 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
     for (const auto* side : {&under, &back, &upper})
       if (side->size() != 1)
         throw input_error("pleat.does-not-fit"_id, file,
-                          pattern.panels[static_cast<std::size_t>(p)].name + ": pleat " +
-                              s.pleat->name,
+                          pattern.panels[p].name + ": pleat " + s.pleat->name,
                           "another line ends between its lines",
                           "move the end of that line off the cloth of the pleat");
     pattern.seams.push_back({s.pleat->name + "-under", "pleat", under, upper, ""});
@@ -243,15 +249,18 @@ OnOutline on_outline(const Panel& panel, const Vec2& p) {
 Pattern with_folds(const Pattern& pattern, const std::string& file) {
   Pattern out = pattern;
   for (std::size_t p = 0; p < out.panels.size(); ++p)
-    if (!out.panels[p].lines.empty()) fold_panel(out, static_cast<int>(p), file);
+    if (!out.panels[p].lines.empty())
+      fold_panel(out, static_cast<int>(p), file);
   return out;
 }
 
 /// Layers that a pleat lays over the one below it, at `s` across the pleat: 0 at the line that it
 /// is folded to, 1 at the fold.
 static double layers_above(double s) {
-  if (s < -0.5 || s > 1) return 0;
-  if (s < 0) return 4 * (0.5 + s);
+  if (s < -0.5 || s > 1)
+    return 0;
+  if (s < 0)
+    return 4 * (0.5 + s);
   return s < 0.5 ? 2 + 2 * s : 6 * (1 - s); // 3 in the middle
 }
 
@@ -264,27 +273,26 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
       out.shift.assign(mesh.pattern.size(), Vec2::Zero());
       out.depth.assign(mesh.pattern.size(), 0);
     }
-    if (turned_whole(panel)) turn_over_whole(panel, mesh, mesh.panels[p], out);
+    if (turned_whole(panel))
+      turn_over_whole(panel, mesh, mesh.panels[p], out);
     else if (!rolls.empty()) {
       const bool collar = panel.hint.part == "neck" || says_neck(words_of(pattern, p));
       turn_over(rolls, collar ? LEAF_STANDS_OFF : LAPEL_STANDS_OFF, mesh, mesh.panels[p], out);
     }
     for (const Pleat& pleat : panel.pleats) {
-      const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path,
-                 &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
+      const Path &fold = panel.lines[pleat.fold].path, &target = panel.lines[pleat.target].path;
       const Vec2 f0 = fold.front().p[0], f1 = fold.back().p[3];
       Vec2 t0 = target.front().p[0], t1 = target.back().p[3];
-      if ((f1 - f0).dot(t1 - t0) < 0) std::swap(t0, t1);
+      if ((f1 - f0).dot(t1 - t0) < 0)
+        std::swap(t0, t1);
       const PanelInfo& info = mesh.panels[p];
       for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
-        const Vec2 x = mesh.pattern[static_cast<std::size_t>(v)];
+        const Vec2 x = mesh.pattern[v];
         const double along = std::clamp((x - f0).dot(f1 - f0) / (f1 - f0).squaredNorm(), 0.0, 1.0);
         const Vec2 f = f0 + along * (f1 - f0), t = t0 + along * (t1 - t0), across = f - t;
         const double s = (x - t).dot(across) / across.squaredNorm();
-        out.shift[static_cast<std::size_t>(v)] -=
-            NEARLY * (s < 0.5 ? 0.0 : std::min(2 * s - 1, 1.0)) * across;
-        out.depth[static_cast<std::size_t>(v)] =
-            std::max(out.depth[static_cast<std::size_t>(v)], LAYER_DEPTH * layers_above(s));
+        out.shift[v] -= NEARLY * (s < 0.5 ? 0.0 : std::min(2 * s - 1, 1.0)) * across;
+        out.depth[v] = std::max(out.depth[v], LAYER_DEPTH * layers_above(s));
       }
     }
   }
@@ -293,7 +301,8 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
 
 bool turned_whole(const Panel& panel) {
   const RollLines rolls(panel);
-  if (rolls.empty()) return false;
+  if (rolls.empty())
+    return false;
   for (const PanelEdge& edge : panel.loops[0]) {
     const ArcLength arc(edge.path);
     for (int k = 0; k < OUTLINE_SAMPLES; ++k)
@@ -311,20 +320,19 @@ std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh) {
     const PanelInfo& info = mesh.panels[p];
     std::vector<Path> lines;
     for (const InnerLine& line : panel.lines)
-      if (line.kind == "roll") lines.push_back(line.path);
+      if (line.kind == "roll")
+        lines.push_back(line.path);
     for (const Pleat& pleat : panel.pleats) {
-      lines.push_back(panel.lines[static_cast<std::size_t>(pleat.fold)].path);
-      lines.push_back(
-          halfway(lines.back(), panel.lines[static_cast<std::size_t>(pleat.target)].path));
+      lines.push_back(panel.lines[pleat.fold].path);
+      lines.push_back(halfway(lines.back(), panel.lines[pleat.target].path));
     }
     for (const Path& line : lines) {
       const std::vector<char> on = vertices_on(line, mesh, info);
       for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
         for (std::size_t k = 0; k < 3; ++k) {
-          const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
+          const Triangle& t = mesh.triangles[f];
           const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
-          if (on[static_cast<std::size_t>(a - info.first_vertex)] &&
-              on[static_cast<std::size_t>(b - info.first_vertex)])
+          if (on[a - info.first_vertex] && on[b - info.first_vertex])
             out.push_back({a, b});
         }
     }
@@ -336,23 +344,26 @@ std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh) {
 
 std::vector<std::array<double, 3>> tape_scales(const PanelMesh& mesh) {
   std::vector<std::array<double, 3>> out;
-  if (!mesh.source) return out;
+  if (!mesh.source)
+    return out;
   for (std::size_t p = 0; p < std::min(mesh.panels.size(), mesh.source->panels.size()); ++p)
     for (const InnerLine& tape : mesh.source->panels[p].lines) {
-      if (tape.kind != "tape") continue;
-      if (out.empty()) out.assign(mesh.triangles.size(), {1, 1, 1});
+      if (tape.kind != "tape")
+        continue;
+      if (out.empty())
+        out.assign(mesh.triangles.size(), {1, 1, 1});
       const ArcLength arc(tape.path);
       const int n = std::max(8, static_cast<int>(std::ceil(arc.length() / 0.004)));
       std::vector<Vec2> points;
-      for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
+      for (int k = 0; k <= n; ++k)
+        points.push_back(arc.at(arc.length() * k / n));
       const double reach =
           0.5 * std::max(tape.width, 1.2 * mesh.edge_length); // a row of triangles at least
       const PanelInfo& info = mesh.panels[p];
       for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
         for (std::size_t k = 0; k < 3; ++k) {
-          const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
-          const Vec2 &a = mesh.pattern[static_cast<std::size_t>(t[k])],
-                     &b = mesh.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
+          const Triangle& t = mesh.triangles[f];
+          const Vec2 &a = mesh.pattern[t[k]], &b = mesh.pattern[t[(k + 1) % 3]];
           const Vec2 middle = 0.5 * (a + b);
           double least = reach;
           Vec2 along = Vec2::Zero();
@@ -366,8 +377,8 @@ std::vector<std::array<double, 3>> tape_scales(const PanelMesh& mesh) {
             }
           }
           if (along.squaredNorm() > 0) // a stretch by `factor` along the tape, none across it
-            out[static_cast<std::size_t>(f)][k] *= std::sqrt(
-                1 + (tape.factor * tape.factor - 1) * std::pow((b - a).normalized().dot(along), 2));
+            out[f][k] *= std::sqrt(1 + (tape.factor * tape.factor - 1) *
+                                           std::pow((b - a).normalized().dot(along), 2));
         }
     }
   return out;

@@ -20,16 +20,18 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
   double worst = units::PI;
   Vec2 where = Vec2::Zero();
   for (int t = panel.first_triangle; t < panel.first_triangle + panel.n_triangles; ++t) {
-    const Triangle& tri = mesh.triangles[static_cast<std::size_t>(t)];
-    const auto at = [&](std::size_t k) { return mesh.pattern[static_cast<std::size_t>(tri[k])]; };
+    const Triangle& tri = mesh.triangles[t];
+    const auto at = [&](std::size_t k) { return mesh.pattern[tri[k]]; };
     const double angle = smallest_angle(at(0), at(1), at(2));
-    if (angle < units::radians(25)) ++n;
+    if (angle < units::radians(25))
+      ++n;
     if (angle < worst) {
       worst = angle;
       where = (at(0) + at(1) + at(2)) / 3;
     }
   }
-  if (n == 0) return;
+  if (n == 0)
+    return;
   char text[160];
   std::snprintf(text, sizeof text,
                 "%s: %d triangle%s below 25 degrees, the smallest %.1f at (%.1f, %.1f) cm",
@@ -41,17 +43,19 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
 /// Fine along the seams of a panel where that is asked for.
 SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::PanelBoundary& boundary,
                      const PanelMesh& mesh) {
-  if (mesh.seam_length <= 0) return SizeField(mesh.edge_length);
+  if (mesh.seam_length <= 0)
+    return SizeField(mesh.edge_length);
   std::vector<char> sewn(static_cast<std::size_t>(pattern.panels[p].n_edges()), 0);
   for (const Seam& s : pattern.seams)
     for (const auto* side : {&s.a, &s.b})
       for (const Run& r : *side)
-        if (r.panel == static_cast<int>(p)) sewn[static_cast<std::size_t>(r.edge)] = 1;
+        if (r.panel == static_cast<int>(p))
+          sewn[r.edge] = 1;
   std::vector<std::array<Vec2, 2>> lines;
   std::size_t v = 0;
   for (const auto& loop : boundary.loops)
     for (std::size_t k = 0; k < loop.size(); ++k, ++v)
-      if (sewn[static_cast<std::size_t>(boundary.edge_of[v])])
+      if (sewn[boundary.edge_of[v]])
         lines.push_back({loop[k], loop[(k + 1) % loop.size()]});
   return SizeField(mesh.edge_length, mesh.seam_length, std::move(lines));
 }
@@ -78,7 +82,8 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
   for (const InnerLine& line : panel.lines) {
     const ArcLength arc(line.path);
     const int n = std::max(1, static_cast<int>(std::lround(arc.length() / h)));
-    if (arc.length() < 0.5 * h) continue;
+    if (arc.length() < 0.5 * h)
+      continue;
     std::vector<std::vector<Vec2>> chains(1);
     int n_left_out = 0;
     for (int k = 0; k <= n; ++k) {
@@ -93,16 +98,20 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
         }
         fits = fits && distance_to_line(loop, true, p) > CLEAR * h;
       }
-      for (const auto& other : out) fits = fits && distance_to_line(other, false, p) > CLEAR * h;
-      if (fits) chains.back().push_back(p);
+      for (const auto& other : out)
+        fits = fits && distance_to_line(other, false, p) > CLEAR * h;
+      if (fits)
+        chains.back().push_back(p);
       else {
         ++n_left_out;
         chains.push_back({});
       }
     }
     for (auto& chain : chains)
-      if (chain.size() >= 2) out.push_back(std::move(chain));
-    if (line.kind == "roll" && n_left_out + 2 > n) continue; // along an edge, which the mesh has
+      if (chain.size() >= 2)
+        out.push_back(std::move(chain));
+    if (line.kind == "roll" && n_left_out + 2 > n)
+      continue; // along an edge, which the mesh has
     if (n_left_out > 2 ||
         n_left_out ==
             n + 1) // the ends of a line may be a little short of an outline that it does not reach
@@ -122,7 +131,8 @@ void require_few_vertices(const Pattern& pattern, const PanelMesh& mesh, const s
   double area = 0;
   for (const Panel& p : pattern.panels) {
     std::vector<Path> outline;
-    for (const PanelEdge& e : p.loops[0]) outline.push_back(e.path);
+    for (const PanelEdge& e : p.loops[0])
+      outline.push_back(e.path);
     area += std::abs(signed_area(outline));
   }
   const double n = area / (mesh.edge_length * mesh.edge_length * std::sqrt(0.75));
@@ -178,8 +188,7 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
           if (const auto same =
                   std::find(memory->m_panels->tasks.begin(), memory->m_panels->tasks.end(), task);
               same != memory->m_panels->tasks.end()) {
-            flat[p] = memory->m_panels
-                          ->flat[static_cast<std::size_t>(same - memory->m_panels->tasks.begin())];
+            flat[p] = memory->m_panels->flat[same - memory->m_panels->tasks.begin()];
             continue;
           }
         flat[p] =
@@ -226,7 +235,8 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
     mesh.panels.push_back(info);
     list_small_angles(mesh, mesh.panels.back());
   }
-  if (memory) *memory->m_panels = {std::move(tasks), std::move(flat)};
+  if (memory)
+    *memory->m_panels = {std::move(tasks), std::move(flat)};
   for (std::size_t s = 0; s < pattern.seams.size(); ++s) {
     const Seam& seam = pattern.seams[s];
     MeshSeam out{
@@ -234,8 +244,8 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
         seam.open};
     for (std::size_t k = 0; k < boundary.seams[s].a.size(); ++k) {
       const auto &a = boundary.seams[s].a[k], &b = boundary.seams[s].b[k];
-      out.a.push_back(mesh.panels[static_cast<std::size_t>(a[0])].first_vertex + a[1]);
-      out.b.push_back(mesh.panels[static_cast<std::size_t>(b[0])].first_vertex + b[1]);
+      out.a.push_back(mesh.panels[a[0]].first_vertex + a[1]);
+      out.b.push_back(mesh.panels[b[0]].first_vertex + b[1]);
     }
     if (out.a.size() < 2) {
       mesh.findings.push_back(

@@ -9,11 +9,13 @@ constexpr double ROLL_SAMPLE = 0.002; // m between the points by which a curved 
 
 RollLines::RollLines(const Panel& panel) {
   for (const InnerLine& line : panel.lines) {
-    if (line.kind != "roll") continue;
+    if (line.kind != "roll")
+      continue;
     const ArcLength arc(line.path);
     const int n = std::clamp(static_cast<int>(std::ceil(arc.length() / ROLL_SAMPLE)), 1, 2000);
     m_lines.emplace_back();
-    for (int k = 0; k <= n; ++k) m_lines.back().push_back(arc.at(arc.length() * k / n));
+    for (int k = 0; k <= n; ++k)
+      m_lines.back().push_back(arc.at(arc.length() * k / n));
   }
 }
 
@@ -25,7 +27,8 @@ std::pair<double, Vec2> RollLines::across(const Vec2& x) const {
       const Vec2 from = line[i], along = line[i + 1] - from;
       const double t = (x - from).dot(along) / along.squaredNorm();
       const Vec2 near = from + std::clamp(t, 0.0, 1.0) * along;
-      if (!((x - near).norm() < least)) continue;
+      if (!((x - near).norm() < least))
+        continue;
       least = (x - near).norm();
       const bool goes_on = (t < 0 && i == 0) || (t > 1 && i + 2 == line.size());
       const Vec2 foot = goes_on ? Vec2(from + t * along) : near;

@@ -6,7 +6,8 @@
 namespace sloper::pattern {
 
 double SizeField::at(const Vec2& p) const {
-  if (uniform()) return m_usual;
+  if (uniform())
+    return m_usual;
   double least = std::pow((m_usual - m_fine) / GROWTH, 2); // nothing further away matters
   for (const auto& [a, b] : m_lines) {
     const Vec2 along = b - a;
@@ -24,8 +25,10 @@ std::vector<double> graded_fractions(double length, double usual, double fine, b
   for (int k = 0; k < STEPS; ++k) {
     const double s = length * (k + 0.5) / STEPS;
     double h = usual;
-    if (fine_start) h = std::min(h, fine + SizeField::GROWTH * s);
-    if (fine_end) h = std::min(h, fine + SizeField::GROWTH * (length - s));
+    if (fine_start)
+      h = std::min(h, fine + SizeField::GROWTH * s);
+    if (fine_end)
+      h = std::min(h, fine + SizeField::GROWTH * (length - s));
     count.push_back(count.back() + length / STEPS / h);
   }
   const int n = std::max(1, static_cast<int>(std::lround(count.back())));
@@ -33,7 +36,8 @@ std::vector<double> graded_fractions(double length, double usual, double fine, b
   std::size_t at = 0;
   for (int k = 1; k < n; ++k) {
     const double wanted = count.back() * k / n;
-    while (count[at + 1] < wanted) ++at;
+    while (count[at + 1] < wanted)
+      ++at;
     out.push_back((static_cast<double>(at) + (wanted - count[at]) / (count[at + 1] - count[at])) /
                   STEPS);
   }

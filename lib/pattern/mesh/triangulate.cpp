@@ -37,7 +37,8 @@ public:
                 x1 = column(std::max(s[0].x(), s[1].x()));
       const int y0 = row(std::min(s[0].y(), s[1].y())), y1 = row(std::max(s[0].y(), s[1].y()));
       for (int y = y0; y <= y1; ++y)
-        for (int x = x0; x <= x1; ++x) m_cells[cell(x, y)].push_back(static_cast<int>(k));
+        for (int x = x0; x <= x1; ++x)
+          m_cells[cell(x, y)].push_back(static_cast<int>(k));
     }
   }
   /// Whether some segment is nearer than d <= h.
@@ -46,10 +47,11 @@ public:
     for (int y = std::max(0, cy - 1); y <= std::min(m_ny - 1, cy + 1); ++y)
       for (int x = std::max(0, cx - 1); x <= std::min(m_nx - 1, cx + 1); ++x)
         for (int k : m_cells[cell(x, y)]) {
-          const auto& s = m_segments[static_cast<std::size_t>(k)];
+          const auto& s = m_segments[k];
           const Vec2 along = s[1] - s[0];
           const double t = std::clamp((p - s[0]).dot(along) / along.squaredNorm(), 0.0, 1.0);
-          if ((p - s[0] - t * along).squaredNorm() < d * d) return true;
+          if ((p - s[0] - t * along).squaredNorm() < d * d)
+            return true;
         }
     return false;
   }
@@ -104,9 +106,11 @@ std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops,
       for (long i = static_cast<long>(std::ceil((crossings[c] - shift) / h));
            shift + static_cast<double>(i) * h < crossings[c + 1]; ++i) {
         const Vec2 p(shift + static_cast<double>(i) * h, y);
-        if (!grid.nearer(p, clearance)) points.push_back(p);
+        if (!grid.nearer(p, clearance))
+          points.push_back(p);
       }
-    if (r % 2) std::reverse(points.begin() + static_cast<long>(row_start), points.end());
+    if (r % 2)
+      std::reverse(points.begin() + static_cast<long>(row_start), points.end());
   }
   return points;
 }
@@ -121,12 +125,14 @@ std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops,
   const double cell = size.usual();
   const SegmentGrid grid(loops, lines, cell);
   Vec2 low = loops[0][0];
-  for (const Vec2& p : loops[0]) low = low.cwiseMin(p);
+  for (const Vec2& p : loops[0])
+    low = low.cwiseMin(p);
   std::map<std::pair<long, long>, std::vector<Vec2>> taken;
   std::vector<Vec2> points;
   for (const Vec2& p : lattice(loops, lines, size.fine(), CLEARANCE * size.fine())) {
     const double h = size.at(p);
-    if (grid.nearer(p, CLEARANCE * h)) continue;
+    if (grid.nearer(p, CLEARANCE * h))
+      continue;
     const long x = static_cast<long>((p.x() - low.x()) / cell),
                y = static_cast<long>((p.y() - low.y()) / cell);
     bool room = true;
@@ -153,11 +159,13 @@ std::vector<Vec2> fan_points(const std::vector<std::vector<Vec2>>& loops,
   for (const auto& loop : loops) {
     const std::size_t n = loop.size();
     for (std::size_t k = 0; k < n; ++k) {
-      if (!must_split[first + k]) continue;
+      if (!must_split[first + k])
+        continue;
       const Vec2 corner = loop[k], a = loop[(k + 1) % n] - corner,
                  b = loop[(k + n - 1) % n] - corner;
       double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-      if (angle <= 0) continue; // a tip that points inwards has faces enough
+      if (angle <= 0)
+        continue; // a tip that points inwards has faces enough
       const int count = std::max(2, static_cast<int>(std::ceil(angle * 3 / 3.14159265358979)) - 1);
       const double radius = 0.85 * std::min(a.norm(), b.norm()), start = std::atan2(a.y(), a.x());
       for (int i = 1; i <= count; ++i) {
@@ -175,10 +183,8 @@ int n_small(const FlatMesh& mesh) {
   int n = 0;
   for (const Triangle& t : mesh.triangles) {
     const bool ear = t[0] < mesh.n_boundary && t[1] < mesh.n_boundary && t[2] < mesh.n_boundary;
-    n += !ear &&
-         smallest_angle(mesh.points[static_cast<std::size_t>(t[0])],
-                        mesh.points[static_cast<std::size_t>(t[1])],
-                        mesh.points[static_cast<std::size_t>(t[2])]) < 25 * 3.14159265358979 / 180;
+    n += !ear && smallest_angle(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) <
+                     25 * 3.14159265358979 / 180;
   }
   return n;
 }
@@ -189,8 +195,10 @@ FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops,
                  const std::vector<char>& must_split, const std::string& panel) {
   FlatDelaunay mesh(loops, panel);
   const std::vector<Vec2> fans = fan_points(loops, must_split);
-  for (const auto& line : lines) mesh.add_line(line);
-  for (const Vec2& p : fans) mesh.insert(p, true);
+  for (const auto& line : lines)
+    mesh.add_line(line);
+  for (const Vec2& p : fans)
+    mesh.insert(p, true);
   const double h = size.usual();
   for (const Vec2& p : size.uniform() ? lattice(loops, lines, spacing * h, 0.62 * spacing * h)
                                       : graded_lattice(loops, lines, size))
@@ -198,10 +206,12 @@ FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops,
                      [&](const Vec2& q) { return (p - q).norm() < 0.7 * size.at(q); }))
       mesh.insert(p);
   mesh.split_chords(must_split);
-  for (int round = 0; round < 8; ++round) mesh.smooth();
+  for (int round = 0; round < 8; ++round)
+    mesh.smooth();
   mesh.split_chords(must_split);
   mesh.fix_density(size);
-  for (int round = 0; round < 6; ++round) mesh.smooth();
+  for (int round = 0; round < 6; ++round)
+    mesh.smooth();
   mesh.split_chords(must_split);
   for (int round = 0; round < 12 && mesh.improve_worst(32 * 3.14159265358979 / 180); ++round) {}
   FlatMesh out;
@@ -219,7 +229,8 @@ FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeFiel
   int least = n_small(best);
   // Strips a row or two wide may not go with the lattice: another spacing often does.
   for (double spacing : {0.9, 0.8, 1.1, 0.7}) {
-    if (least == 0 || !size.uniform()) break;
+    if (least == 0 || !size.uniform())
+      break;
     FlatMesh other = attempt(loops, lines, size, spacing, must_split, panel);
     if (const int n = n_small(other); n < least) {
       best = std::move(other);

@@ -24,14 +24,16 @@ std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
 }
 
 std::optional<Sector> Placer::sector_of(std::size_t k) const {
-  if (m_roles[k].part != "lower_body" || is_leg(m_roles[k])) return std::nullopt;
+  if (m_roles[k].part != "lower_body" || is_leg(m_roles[k]))
+    return std::nullopt;
   std::vector<std::array<Vec2, 2>> sides; // from the waist to the hem
   for (int q : m_graph.neighbours(static_cast<int>(k)))
-    if (const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+    if (const PanelRole& other = m_roles[q];
         other.part == "lower_body" && other.side != m_roles[k].side)
       for (const auto& seam : m_graph.between(static_cast<int>(k), q))
         sides.push_back({uv(k, seam.front()[0]), uv(k, seam.back()[0])});
-  if (sides.size() != 2) return std::nullopt;
+  if (sides.size() != 2)
+    return std::nullopt;
   const std::vector<std::array<Vec2, 2>> as_sewn = sides;
   for (std::size_t i : {0, 1}) { // the waist's ends are nearer to each other than those of the hem;
                                  // of a band the upper ones
@@ -43,7 +45,8 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
     if (std::abs(wider) < 0.2 * (out - in).norm() ? in.y() < out.y() : wider < 0)
       std::swap(in, out);
   }
-  if (sides[0][0].x() > sides[1][0].x()) std::swap(sides[0], sides[1]);
+  if (sides[0][0].x() > sides[1][0].x())
+    std::swap(sides[0], sides[1]);
   // Where the lines of the sides meet; of lines that are all but one, between their upper ends.
   Eigen::Matrix2d a = 1e-3 * Eigen::Matrix2d::Identity();
   Vec2 c = 0.5e-3 * (sides[0][0] + sides[1][0]);
@@ -55,7 +58,8 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
     spread +=
         std::atan2((&in == &sides[0][0] ? -1 : 1) * along.x(), -along.y()); // from straight down
   }
-  if (!(spread > WIDE_SPREAD)) return std::nullopt;
+  if (!(spread > WIDE_SPREAD))
+    return std::nullopt;
   const Vec2 tip = a.ldlt().solve(c);
   const auto reach = [&](std::size_t end) {
     return 0.5 * ((sides[0][end] - tip).norm() + (sides[1][end] - tip).norm());
@@ -68,18 +72,21 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
     area += 0.5 * (p.x() * q.y() - p.y() * q.x());
   }
   const double ring = 0.5 * spread * (outer * outer - inner * inner);
-  if (!(std::abs(std::abs(area) - ring) < 0.25 * ring)) return std::nullopt;
+  if (!(std::abs(std::abs(area) - ring) < 0.25 * ring))
+    return std::nullopt;
   return Sector{tip, spread, inner, outer - inner};
 }
 
 bool Placer::hangs_on_shoulders(double top) const {
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
-    if (m_roles[k].region != Region::TRUNK) return true;
+    if (m_roles[k].region != Region::TRUNK)
+      return true;
     if (m_roles[k].side != Side::FRONT || m_roles[k].part == "lower_body")
       continue; // the sides of a circle skirt may be drawn level
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
-      const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
-      if (other.side != Side::BACK || other.part == "lower_body") continue;
+      const PanelRole& other = m_roles[q];
+      if (other.side != Side::BACK || other.part == "lower_body")
+        continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) { // a level seam at the top
         const Vec2 a = uv(k, seam.front()[0]), b = uv(k, seam.back()[0]);
         if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) &&
@@ -101,20 +108,23 @@ double Placer::strapless_height(double top) const {
   }
   const double chest =
       std::min(m_space.level("chest_axilla", 0.76), top / USUAL_STATURE * m_space.stature());
-  if (stated) return top > ABOVE_WAIST ? chest : 0;
+  if (stated)
+    return top > ABOVE_WAIST ? chest : 0;
   return named ? m_space.level("chest_axilla", 0.76) : 0;
 }
 
 void Placer::anchor_trunk() {
   double top = -1e300;
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
-    if (m_roles[k].region != Region::TRUNK) continue;
+    if (m_roles[k].region != Region::TRUNK)
+      continue;
     const auto sector = sector_of(k); // its sides may be drawn upwards
     top = std::max(
         top, sector ? sector->top()
                     : laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[1].y());
   }
-  if (top < -1e299) return;
+  if (top < -1e299)
+    return;
   double shift = 0;
   if (hangs_on_shoulders(top)) {
     // The highest point is the neck end of the shoulder seam: it goes to the skin's height there.
@@ -123,7 +133,8 @@ void Placer::anchor_trunk() {
       if (g.region == Region::TRUNK)
         for (std::size_t k : g.panels)
           for (int v : m_mesh.panels[k].outline)
-            if (const Vec2 p = uv(k, v); p.y() > top - 0.005) x = std::max(x, std::abs(p.x()));
+            if (const Vec2 p = uv(k, v); p.y() > top - 0.005)
+              x = std::max(x, std::abs(p.x()));
     shift = m_space.shoulder_height(std::clamp(x, 0.05, 0.12)) + SHOULDER_RAISE - top;
   } else if (const double chest = strapless_height(top); chest > 0) {
     shift = chest - top;
@@ -138,14 +149,16 @@ void Placer::anchor_trunk() {
         edge;
   }
   for (std::size_t k = 0; k < m_roles.size(); ++k)
-    if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
+    if (m_roles[k].region == Region::TRUNK)
+      m_spots[k].offset.y() += shift;
 }
 
 std::vector<std::vector<std::size_t>> Placer::hanging_pieces() const {
   std::vector<std::vector<std::size_t>> pieces;
   std::vector<char> met(m_roles.size(), 0);
   for (std::size_t first = 0; first < m_roles.size(); ++first) {
-    if (met[first]) continue;
+    if (met[first])
+      continue;
     std::vector<std::size_t> sewn_together = {first};
     met[first] = 1;
     for (std::size_t at = 0; at < sewn_together.size(); ++at)
@@ -205,7 +218,8 @@ std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<
       }
     }
   }
-  if (!(length > 0.1)) return {{}, top};
+  if (!(length > 0.1))
+    return {{}, top};
   const double edge = height / length;
   std::vector<double> around = {length};
   for (int row = 1; row <= 15; ++row) {
@@ -223,8 +237,10 @@ double Placer::covered(const std::vector<std::size_t>& piece, double v) const {
   for (std::size_t k : piece) {
     const auto sector = sector_of(k);
     const double down = sector ? sector->top() - v : 0;
-    if (!sector) sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
-    else if (down >= 0 && down <= sector->length) sum += sector->spread * (sector->inner + down);
+    if (!sector)
+      sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
+    else if (down >= 0 && down <= sector->length)
+      sum += sector->spread * (sector->inner + down);
   }
   return sum;
 }
@@ -234,22 +250,24 @@ bool Placer::sewn(int vertex) {
     m_sewn.assign(m_mesh.pattern.size(), 0);
     for (const MeshSeam& s : m_mesh.seams)
       for (std::size_t k = 0; k < s.a.size(); ++k)
-        m_sewn[static_cast<std::size_t>(s.a[k])] = m_sewn[static_cast<std::size_t>(s.b[k])] = 1;
+        m_sewn[s.a[k]] = m_sewn[s.b[k]] = 1;
   }
-  return m_sewn[static_cast<std::size_t>(vertex)] != 0;
+  return m_sewn[vertex] != 0;
 }
 
 void Placer::face_neck() {
   constexpr double AROUND = 0.4, HALF_WIDTH = 0.075; // m, of a neck
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     const PlacementHint& hint = m_pattern.panels[k].hint;
-    if (m_roles[k].region != Region::NECK || hint.rigid || !hint.part.empty()) continue;
+    if (m_roles[k].region != Region::NECK || hint.rigid || !hint.part.empty())
+      continue;
     const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
     Vec2 sum = Vec2::Zero();
     double stitches = 0;
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const auto trunk = static_cast<std::size_t>(q);
-      if (m_roles[trunk].region != Region::TRUNK || m_roles[trunk].side == Side::RING) continue;
+      if (m_roles[trunk].region != Region::TRUNK || m_roles[trunk].side == Side::RING)
+        continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q))
         for (const auto& [here, there] : seam) {
           const double aside = std::asin(std::clamp(uv(trunk, there).x() / HALF_WIDTH, -1.0,
@@ -273,23 +291,26 @@ void Placer::level_neck() {
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     double sum = 0, stitches = 0;
     for (int q : m_graph.neighbours(static_cast<int>(k)))
-      if (m_roles[k].region == Region::NECK &&
-          m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK)
+      if (m_roles[k].region == Region::NECK && m_roles[q].region == Region::TRUNK)
         for (const auto& seam : m_graph.between(static_cast<int>(k), q))
           for (const auto& s : seam) {
             sum += uv(k, s[0]).y();
             ++stitches;
           }
-    if (stitches == 0) continue;
+    if (stitches == 0)
+      continue;
     raise[k] = -sum / stitches;
     lowest = std::min(lowest, sum / stitches);
   }
   const std::vector<std::optional<double>> of_sewn_on = raise;
   for (std::size_t k = 0; k < m_roles.size(); ++k) { // a leaf goes with its stand
-    if (m_roles[k].region != Region::NECK) continue;
+    if (m_roles[k].region != Region::NECK)
+      continue;
     for (int q : m_graph.neighbours(static_cast<int>(k)))
-      if (!raise[k]) raise[k] = of_sewn_on[static_cast<std::size_t>(q)];
-    if (raise[k]) m_spots[k].offset.y() += *raise[k] + lowest;
+      if (!raise[k])
+        raise[k] = of_sewn_on[q];
+    if (raise[k])
+      m_spots[k].offset.y() += *raise[k] + lowest;
   }
 }
 
@@ -297,13 +318,15 @@ void Placer::anchor_neck() {
   face_neck();
   level_neck();
   for (const PanelGroup& g : m_groups) {
-    if (g.region != Region::NECK) continue;
+    if (g.region != Region::NECK)
+      continue;
     const auto b = bounds(g);
     const double neck =
         std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l")
                                                     ? m_space.body().landmark("neck_side_l").y()
                                                     : 0.0);
-    for (std::size_t k : g.panels) m_spots[k].offset.y() += neck + 0.005 - b[0].y();
+    for (std::size_t k : g.panels)
+      m_spots[k].offset.y() += neck + 0.005 - b[0].y();
   }
 }
 

@@ -14,8 +14,8 @@ BodySpace::BodySpace(const body::Body& body)
     : m_body(body), m_part(body.skin.positions.size(), Part::NONE) {
   for (std::size_t t = 0; t < body.skin.triangles.size(); ++t)
     for (int v : body.skin.triangles[t])
-      if (m_part[static_cast<std::size_t>(v)] == Part::NONE && t < body.face_part.size())
-        m_part[static_cast<std::size_t>(v)] = body.face_part[t];
+      if (m_part[v] == Part::NONE && t < body.face_part.size())
+        m_part[v] = body.face_part[t];
   for (std::size_t t = 0; t < body.face_part.size() && t < body.skin.triangles.size(); ++t)
     if (const Part part = body.face_part[t];
         part == Part::TORSO || part == Part::LEG_L || part == Part::LEG_R)
@@ -33,13 +33,16 @@ std::vector<Vec2> BodySpace::points(const Axis& axis, const std::vector<Part>& p
   std::vector<Vec2> all;
   Vec2 sum = Vec2::Zero();
   for (std::size_t k = 0; k < m_part.size(); ++k) {
-    if (std::find(parts.begin(), parts.end(), m_part[k]) == parts.end()) continue;
+    if (std::find(parts.begin(), parts.end(), m_part[k]) == parts.end())
+      continue;
     const double v = axis.height(m_body.skin.positions[k]);
-    if (v < low || v > high) continue;
+    if (v < low || v > high)
+      continue;
     all.push_back(axis.plane(m_body.skin.positions[k]));
     sum += all.back();
   }
-  if (all.size() < 300) return all;
+  if (all.size() < 300)
+    return all;
   std::vector<int> keep(256, -1);
   std::vector<Vec2> direction(keep.size());
   for (std::size_t d = 0; d < keep.size(); ++d)
@@ -47,13 +50,13 @@ std::vector<Vec2> BodySpace::points(const Axis& axis, const std::vector<Part>& p
                         std::sin(2 * units::PI * static_cast<double>(d) / 256));
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t d = 0; d < keep.size(); ++d)
-      if (keep[d] < 0 ||
-          all[k].dot(direction[d]) > all[static_cast<std::size_t>(keep[d])].dot(direction[d]))
+      if (keep[d] < 0 || all[k].dot(direction[d]) > all[keep[d]].dot(direction[d]))
         keep[d] = static_cast<int>(k);
   std::sort(keep.begin(), keep.end());
   keep.erase(std::unique(keep.begin(), keep.end()), keep.end());
   std::vector<Vec2> out;
-  for (int k : keep) out.push_back(all[static_cast<std::size_t>(k)]);
+  for (int k : keep)
+    out.push_back(all[k]);
   return out;
 }
 
@@ -74,7 +77,8 @@ Axis BodySpace::arm(bool left, int facing, double sleeve_length) const {
   const std::string side = left ? "_l" : "_r";
   const auto landmark = [&](std::initializer_list<const char*> names) -> const Vec3& {
     for (const char* name : names)
-      if (m_body.has_landmark(name + side)) return m_body.landmark(name + side);
+      if (m_body.has_landmark(name + side))
+        return m_body.landmark(name + side);
     return m_body.landmark(*names.begin() + side); // throws, naming the first
   };
   const Vec3 shoulder = landmark({"shoulder_joint", "acromion"}),
@@ -85,10 +89,13 @@ Axis BodySpace::arm(bool left, int facing, double sleeve_length) const {
   axis.up =
       (shoulder - (sleeve_length > 1.1 * (shoulder - elbow).norm() ? wrist : elbow)).normalized();
   Vec3 wanted(left ? 1 : -1, 1, 0);
-  if (facing == 0) wanted = Vec3(0, 0, 1);
-  if (facing == 1) wanted = Vec3(0, 0, -1);
+  if (facing == 0)
+    wanted = Vec3(0, 0, 1);
+  if (facing == 1)
+    wanted = Vec3(0, 0, -1);
   axis.front = (wanted - wanted.dot(axis.up) * axis.up);
-  if (axis.front.norm() < 1e-3) axis.front = axis.up.unitOrthogonal();
+  if (axis.front.norm() < 1e-3)
+    axis.front = axis.up.unitOrthogonal();
   axis.front.normalize();
   return axis;
 }
@@ -105,7 +112,8 @@ double BodySpace::shoulder_height(double x) const {
   for (std::size_t k = 0; k < m_part.size(); ++k)
     if (m_part[k] == Part::TORSO && std::abs(std::abs(m_body.skin.positions[k].x()) - x) < 0.012)
       top = std::max(top, m_body.skin.positions[k].y());
-  if (top > 0) return top;
+  if (top > 0)
+    return top;
   return m_body.has_landmark("neck_center") ? m_body.landmark("neck_center").y() : 0.83 * m_stature;
 }
 
@@ -118,16 +126,18 @@ double BodySpace::girth(double y) const {
   constexpr double CLOTH = 0.002; // m off the skin
   std::vector<Vec2> points;
   for (int t : m_trunk) {
-    const Triangle& triangle = m_body.skin.triangles[static_cast<std::size_t>(t)];
+    const Triangle& triangle = m_body.skin.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &a = m_body.skin.positions[static_cast<std::size_t>(triangle[k])],
-                 &b = m_body.skin.positions[static_cast<std::size_t>(triangle[(k + 1) % 3])];
-      if ((a.y() < y) == (b.y() < y)) continue;
+      const Vec3 &a = m_body.skin.positions[triangle[k]],
+                 &b = m_body.skin.positions[triangle[(k + 1) % 3]];
+      if ((a.y() < y) == (b.y() < y))
+        continue;
       const Vec3 p = a + (y - a.y()) / (b.y() - a.y()) * (b - a);
       points.push_back({p.x(), p.z()});
     }
   }
-  if (points.size() < 3) return 0;
+  if (points.size() < 3)
+    return 0;
   return body::closed_length(body::convex_hull(std::move(points))) + 2 * units::PI * CLOTH;
 }
 
@@ -141,9 +151,11 @@ double BodySpace::hang_height(const std::vector<double>& around, double limit) c
                    std::max(limit, low + 0.02));
   const int n = static_cast<int>((high - low) / STEP) + 1,
             depth = static_cast<int>(std::lround(0.01 * static_cast<double>(around.size()) / STEP));
-  if (n < 2 || around.empty()) return waist;
+  if (n < 2 || around.empty())
+    return waist;
   std::vector<double> girths; // from `high` down
-  for (int k = 0; k < n + depth; ++k) girths.push_back(girth(high - STEP * k));
+  for (int k = 0; k < n + depth; ++k)
+    girths.push_back(girth(high - STEP * k));
   const auto tension = [&](int top) {
     double sum = 0;
     for (std::size_t row = 0; row < around.size(); ++row) {
@@ -156,18 +168,20 @@ double BodySpace::hang_height(const std::vector<double>& around, double limit) c
   };
   int narrowest = 0;
   for (int k = 0; k < n; ++k)
-    if (girths[static_cast<std::size_t>(k)] < girths[static_cast<std::size_t>(narrowest)])
+    if (girths[k] < girths[narrowest])
       narrowest = k;
   int best = -1;
   for (int k = 0; k < n; ++k) // the free place nearest to the narrowest
     if (tension(k) <= FREE && (best < 0 || std::abs(k - narrowest) < std::abs(best - narrowest)))
       best = k;
   if (best >= 0) {
-    while (best + 1 < n && tension(best + 1) <= FREE) ++best;
+    while (best + 1 < n && tension(best + 1) <= FREE)
+      ++best;
   } else {
     best = narrowest;
     for (int k = 0; k < n; ++k)
-      if (tension(k) < tension(best) - 1e-12) best = k;
+      if (tension(k) < tension(best) - 1e-12)
+        best = k;
   }
   return high - STEP * best;
 }

@@ -25,7 +25,8 @@ Placer::Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh,
   m_innermost = mesh.panels.empty()
                     ? 0
                     : std::min_element(mesh.panels.begin(), mesh.panels.end(), inner)->layer;
-  for (std::size_t k = 0; k < m_depth.size(); ++k) m_depth[k] = mesh.panels[k].layer - m_innermost;
+  for (std::size_t k = 0; k < m_depth.size(); ++k)
+    m_depth[k] = mesh.panels[k].layer - m_innermost;
   for (const PanelInfo& p : mesh.panels)
     for (int t = 0; t < p.n_triangles; ++t)
       m_panel_of_triangle.push_back(static_cast<int>(&p - mesh.panels.data()));
@@ -48,7 +49,7 @@ PlacementReport Placer::run() {
   const int unclassified = find_unclassified();
   report.is_guess =
       m_roles.size() > 1 &&
-      (unclassified == static_cast<int>(m_roles.size()) ||
+      (unclassified == std::ssize(m_roles) ||
        std::all_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return r.by_shape; }));
   return report;
 }
@@ -60,8 +61,10 @@ int Placer::find_unclassified() {
     const Panel& panel = m_pattern.panels[k];
     if (m_roles[k].by_shape) {
       std::string side;
-      if (m_roles[k].side == Side::FRONT) side = ", front";
-      if (m_roles[k].side == Side::BACK) side = ", back";
+      if (m_roles[k].side == Side::FRONT)
+        side = ", front";
+      if (m_roles[k].side == Side::BACK)
+        side = ", back";
       shaped +=
           (shaped.empty() ? "" : ", ") + panel.name + " (" + m_mesh.panels[k].part + side + ")";
       continue;
@@ -100,8 +103,10 @@ void Placer::make_groups() {
 }
 
 void Placer::place_all() {
-  for (const PanelGroup& g : m_groups) place_group(g);
-  for (std::size_t ring = 0; ring < m_rings.size(); ++ring) place_gores(ring);
+  for (const PanelGroup& g : m_groups)
+    place_group(g);
+  for (std::size_t ring = 0; ring < m_rings.size(); ++ring)
+    place_gores(ring);
 }
 
 void Placer::make_rings() {
@@ -114,7 +119,8 @@ void Placer::make_rings() {
       skin.push_back(m_space.body().skin.positions[v]);
   for (const GoreRow& ring : m_rings) {
     m_ring_tubes.emplace_back(ring, skin);
-    for (const Gore& g : ring.gores) m_in_ring[g.panel] = 1;
+    for (const Gore& g : ring.gores)
+      m_in_ring[g.panel] = 1;
   }
 }
 
@@ -122,8 +128,7 @@ std::map<std::pair<int, int>, int> Placer::crossings() const {
   const collision::TriangleTree tree(m_mesh.placed, m_mesh.triangles);
   std::map<std::pair<int, int>, int> count;
   for (const auto& pair : collision::self_intersections(m_mesh.placed, m_mesh.triangles, tree)) {
-    const int p = m_panel_of_triangle[static_cast<std::size_t>(pair[0])],
-              q = m_panel_of_triangle[static_cast<std::size_t>(pair[1])];
+    const int p = m_panel_of_triangle[pair[0]], q = m_panel_of_triangle[pair[1]];
     ++count[{std::min(p, q), std::max(p, q)}];
   }
   return count;
@@ -132,17 +137,20 @@ std::map<std::pair<int, int>, int> Placer::crossings() const {
 bool Placer::meets_trunk(const PanelGroup& group, const std::vector<Triangle>& triangles,
                          const std::vector<int>& through) const {
   const bool left = group.region == Region::ARM_L;
-  if ((!left && group.region != Region::ARM_R) || m_arm_shift[left] < -MOST_ARM_SHIFT) return false;
+  if ((!left && group.region != Region::ARM_R) || m_arm_shift[left] < -MOST_ARM_SHIFT)
+    return false;
   const body::Part arm = left ? body::Part::ARM_L : body::Part::ARM_R;
   int elsewhere = 0;
   for (const int t : through) {
-    const Triangle& corner = triangles[static_cast<std::size_t>(t)];
+    const Triangle& corner = triangles[t];
     Vec3 middle = Vec3::Zero();
-    for (const int v : corner) middle += m_mesh.placed[static_cast<std::size_t>(v)] / 3;
+    for (const int v : corner)
+      middle += m_mesh.placed[v] / 3;
     const int skin = m_collider.signed_distance(middle, SKIN_REACH, -1).triangle;
-    if (skin >= 0 && m_space.body().face_part[static_cast<std::size_t>(skin)] != arm) ++elsewhere;
+    if (skin >= 0 && m_space.body().face_part[skin] != arm)
+      ++elsewhere;
   }
-  return 2 * elsewhere > static_cast<int>(through.size());
+  return 2 * elsewhere > std::ssize(through);
 }
 
 PlacementReport Placer::push_free() {
@@ -165,7 +173,8 @@ PlacementReport Placer::push_free() {
             ++m_depth[over ? q : p];
             changed = true;
           }
-        } else raise_neck = true;
+        } else
+          raise_neck = true;
       } else if (is_arm(p) != is_arm(q)) {
         // Out along the arm first; a hanging arm never leaves the wings of a wide skirt that way,
         // so then they make room.
@@ -173,12 +182,14 @@ PlacementReport Placer::push_free() {
         PanelGroup& trunk = m_groups[m_group_of[is_arm(p) ? q : p]];
         if (m_arm_shift[left] > -0.2 || trunk.side == Side::RING || trunk.wing > 0.2)
           moved_arms.insert(left);
-        else widen.insert(m_group_of[is_arm(p) ? q : p]);
+        else
+          widen.insert(m_group_of[is_arm(p) ? q : p]);
       } else if (is_arm(p)) {
         if (m_group_of[p] != m_group_of[q]) {
           grow.insert(m_group_of[p]);
           grow.insert(m_group_of[q]);
-        } else grow.insert(m_group_of[p]);
+        } else
+          grow.insert(m_group_of[p]);
       } else if (m_group_of[p] == m_group_of[q] && p != q && m_roles[p].side == m_roles[q].side) {
         if (m_depth[p] == m_depth[q]) {
           ++m_depth[area(p) > area(q) ? q : p];
@@ -200,7 +211,8 @@ PlacementReport Placer::push_free() {
       m_raised += 0.01;
       changed = true;
       for (std::size_t k = 0; k < m_roles.size(); ++k)
-        if (m_roles[k].region == Region::NECK) m_spots[k].offset.y() += 0.01;
+        if (m_roles[k].region == Region::NECK)
+          m_spots[k].offset.y() += 0.01;
     }
     for (std::size_t g = 0; g < m_groups.size(); ++g) {
       int inside = 0;
@@ -208,17 +220,19 @@ PlacementReport Placer::push_free() {
       for (std::size_t k : m_groups[g].panels) {
         const PanelInfo& info = m_mesh.panels[k];
         for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
-          inside += m_collider.is_inside(m_mesh.placed[static_cast<std::size_t>(v)]);
+          inside += m_collider.is_inside(m_mesh.placed[v]);
         triangles.insert(triangles.end(), m_mesh.triangles.begin() + info.first_triangle,
                          m_mesh.triangles.begin() + info.first_triangle + info.n_triangles);
       }
       const std::vector<int> through = m_collider.faces_through(m_mesh.placed, triangles);
       report.vertices_inside += inside;
       report.faces_through += static_cast<int>(through.size());
-      if (inside == 0 && through.empty()) continue;
+      if (inside == 0 && through.empty())
+        continue;
       if (meets_trunk(m_groups[g], triangles, through))
         moved_arms.insert(m_groups[g].region == Region::ARM_L);
-      else grow.insert(g);
+      else
+        grow.insert(g);
     }
     for (int left : moved_arms)
       if (m_arm_shift[left] > -0.4) {
@@ -230,16 +244,16 @@ PlacementReport Placer::push_free() {
         m_groups[g].extra += 0.005;
         changed = true;
       }
-    if (!changed) break;
+    if (!changed)
+      break;
     place_all();
   }
   if (report.crossings)
     for (const auto& [pair, n] : crossings())
       m_mesh.findings.push_back(
-          {"placement.not-free"_id,
-           "start: " + m_mesh.panels[static_cast<std::size_t>(pair.first)].name + " and " +
-               m_mesh.panels[static_cast<std::size_t>(pair.second)].name + " cross in " +
-               std::to_string(n) + " pairs of triangles"});
+          {"placement.not-free"_id, "start: " + m_mesh.panels[pair.first].name + " and " +
+                                        m_mesh.panels[pair.second].name + " cross in " +
+                                        std::to_string(n) + " pairs of triangles"});
   if (report.vertices_inside + report.faces_through)
     m_mesh.findings.push_back(
         {"placement.not-free"_id,
@@ -254,7 +268,7 @@ void Placer::find_impossible(PlacementReport& report) const {
   for (const PanelInfo& info : m_mesh.panels) {
     double low = 1e300, high = -1e300;
     for (int v : info.outline) {
-      const double y = m_mesh.placed[static_cast<std::size_t>(v)].y();
+      const double y = m_mesh.placed[v].y();
       low = std::min(low, y);
       high = std::max(high, y);
     }
@@ -267,9 +281,7 @@ void Placer::find_impossible(PlacementReport& report) const {
   for (const MeshSeam& s : m_mesh.seams) {
     double sum = 0;
     for (std::size_t k = 0; k < s.a.size(); ++k)
-      sum += (m_mesh.placed[static_cast<std::size_t>(s.a[k])] -
-              m_mesh.placed[static_cast<std::size_t>(s.b[k])])
-                 .norm();
+      sum += (m_mesh.placed[s.a[k]] - m_mesh.placed[s.b[k]]).norm();
     const double gap = sum / static_cast<double>(s.a.size());
     if (gap > WIDEST_GAP)
       report.impossible.push_back("the sides of seam " + s.name + " start " + centimetres(gap) +
@@ -282,9 +294,7 @@ void Placer::measure_gaps(PlacementReport& report) const {
   int n = 0;
   for (const MeshSeam& s : m_mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) {
-      const double gap = (m_mesh.placed[static_cast<std::size_t>(s.a[k])] -
-                          m_mesh.placed[static_cast<std::size_t>(s.b[k])])
-                             .norm();
+      const double gap = (m_mesh.placed[s.a[k]] - m_mesh.placed[s.b[k]]).norm();
       sum += gap;
       ++n;
       report.seam_gap_max = std::max(report.seam_gap_max, gap);
@@ -297,17 +307,21 @@ PlacementReport place_panels(const Pattern& pattern, const body::Body& body, Pan
   // Pleats are laid, collars and lapels turned over, before the panels are placed: their cloth is
   // where it will be sewn and worn.
   const Folding folding = fold_panels(pattern, mesh);
-  if (folding.shift.empty()) return Placer(pattern, body, mesh, folding).run();
+  if (folding.shift.empty())
+    return Placer(pattern, body, mesh, folding).run();
   const std::vector<Vec2> flat = mesh.pattern;
   std::vector<int> layers;
-  for (std::size_t v = 0; v < flat.size(); ++v) mesh.pattern[v] += folding.shift[v];
+  for (std::size_t v = 0; v < flat.size(); ++v)
+    mesh.pattern[v] += folding.shift[v];
   for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
     layers.push_back(mesh.panels[k].layer);
-    if (turned_whole(pattern.panels[k])) ++mesh.panels[k].layer; // it lies over its stand
+    if (turned_whole(pattern.panels[k]))
+      ++mesh.panels[k].layer; // it lies over its stand
   }
   const PlacementReport report = Placer(pattern, body, mesh, folding).run();
   mesh.pattern = flat;
-  for (std::size_t k = 0; k < layers.size(); ++k) mesh.panels[k].layer = layers[k];
+  for (std::size_t k = 0; k < layers.size(); ++k)
+    mesh.panels[k].layer = layers[k];
   return report;
 }
 
@@ -315,17 +329,18 @@ void lay_flat(const Pattern& pattern, PanelMesh& mesh) {
   const bool stated = std::all_of(pattern.panels.begin(), pattern.panels.end(),
                                   [](const Panel& p) { return p.hint.rigid.has_value(); });
   mesh.placement = stated ? Placement::STATED : Placement::FLAT;
-  if (stated) return;
+  if (stated)
+    return;
   double x = 0;
   for (const PanelInfo& info : mesh.panels) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (int v : info.outline) {
-      low = low.cwiseMin(mesh.pattern[static_cast<std::size_t>(v)]);
-      high = high.cwiseMax(mesh.pattern[static_cast<std::size_t>(v)]);
+      low = low.cwiseMin(mesh.pattern[v]);
+      high = high.cwiseMax(mesh.pattern[v]);
     }
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
-      const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)] - low;
-      mesh.placed[static_cast<std::size_t>(v)] = Vec3(x + p.x(), p.y(), 0);
+      const Vec2 p = mesh.pattern[v] - low;
+      mesh.placed[v] = Vec3(x + p.x(), p.y(), 0);
     }
     x += high.x() - low.x() + 0.05;
   }

@@ -45,8 +45,10 @@ public:
 
 private:
   static std::string region_name(Region r) {
-    if (r == Region::TRUNK) return "torso";
-    if (r == Region::ARM_L) return "arm_l";
+    if (r == Region::TRUNK)
+      return "torso";
+    if (r == Region::ARM_L)
+      return "arm_l";
     return r == Region::ARM_R ? "arm_r" : "neck";
   }
   bool is_arm(std::size_t k) const {

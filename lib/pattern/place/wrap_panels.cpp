@@ -30,19 +30,22 @@ constexpr double MOST_FOLDED = 2.5;  // length of cloth on a length of the way, 
 
 static double hull_end(const std::vector<Vec2>& hull, double sense) {
   double z = -1e300;
-  for (const Vec2& p : hull) z = std::max(z, sense * p.y());
+  for (const Vec2& p : hull)
+    z = std::max(z, sense * p.y());
   return sense * z;
 }
 
 static double plane_low(const std::vector<Vec2>& hull) {
   double x = 1e300;
-  for (const Vec2& p : hull) x = std::min(x, p.x());
+  for (const Vec2& p : hull)
+    x = std::min(x, p.x());
   return x;
 }
 
 static double plane_high(const std::vector<Vec2>& hull) {
   double x = -1e300;
-  for (const Vec2& p : hull) x = std::max(x, p.x());
+  for (const Vec2& p : hull)
+    x = std::max(x, p.x());
   return x;
 }
 
@@ -50,14 +53,15 @@ template<class Point> void Placer::put(std::size_t panel, Point point) {
   const PanelInfo& info = m_mesh.panels[panel];
   for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
     const Vec2 p = uv(panel, v);
-    Vec3& at = m_mesh.placed[static_cast<std::size_t>(v)];
+    Vec3& at = m_mesh.placed[v];
     at = point(p);
-    if (m_folding.depth.empty() || m_folding.depth[static_cast<std::size_t>(v)] == 0) continue;
+    if (m_folding.depth.empty() || m_folding.depth[v] == 0)
+      continue;
     constexpr double STEP = 1e-4; // m: u is right and v up, seen from outside
     const Vec3 outwards =
         (point(Vec2(p + Vec2(STEP, 0))) - at).cross(point(Vec2(p + Vec2(0, STEP))) - at);
     if (outwards.norm() > 0)
-      at -= m_folding.depth[static_cast<std::size_t>(v)] * outwards.normalized();
+      at -= m_folding.depth[v] * outwards.normalized();
   }
 }
 
@@ -84,7 +88,8 @@ double Placer::wing_limit(const PanelGroup& group, const Axis& axis, const std::
   const double reach = std::max(std::abs(b[0].x()), std::abs(b[1].x())) + 0.03;
   for (const Vec2& p :
        m_space.points(axis, {Part::ARM_L, Part::ARM_R}, b[0].y() - 0.02, b[1].y() + 0.02))
-    if (std::abs(p.x()) < reach) limit = std::max(limit, p.y() + WING);
+    if (std::abs(p.x()) < reach)
+      limit = std::max(limit, p.y() + WING);
   return limit + group.wing;
 }
 
@@ -142,10 +147,12 @@ double Placer::folded_beside_arm(const PanelGroup& group, const Axis& axis, cons
       inner = std::min(inner, sign * p.x());
       outer = std::max(outer, sign * p.x());
     }
-    if (inner > outer) continue;
+    if (inner > outer)
+      continue;
     double edge = 0; // of the cloth in this row, m from its middle
     for (std::size_t k : group.panels) {
-      if (m_roles[k].part == "lower_body") continue;
+      if (m_roles[k].part == "lower_body")
+        continue;
       const std::vector<int>& outline = m_mesh.panels[k].outline;
       for (std::size_t i = 0; i < outline.size(); ++i) {
         const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
@@ -153,9 +160,11 @@ double Placer::folded_beside_arm(const PanelGroup& group, const Axis& axis, cons
           edge = std::max(edge, sign * (p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x())));
       }
     }
-    if (edge <= 0 || sign * curve.at(sign * edge).x() < 0.5 * (inner + outer)) continue;
+    if (edge <= 0 || sign * curve.at(sign * edge).x() < 0.5 * (inner + outer))
+      continue;
     double room = edge;
-    while (room > edge / MOST_FOLDED && sign * curve.at(sign * room).x() > inner) room -= 0.002;
+    while (room > edge / MOST_FOLDED && sign * curve.at(sign * room).x() > inner)
+      room -= 0.002;
     most = std::max(most, edge / room);
   }
   return most;
@@ -166,7 +175,8 @@ void Placer::place_trunk(const PanelGroup& all) {
   group.panels.erase(std::remove_if(group.panels.begin(), group.panels.end(),
                                     [&](std::size_t k) { return m_in_ring[k] != 0; }),
                      group.panels.end());
-  if (group.panels.empty()) return;
+  if (group.panels.empty())
+    return;
   const auto b = bounds(group);
   std::vector<Part> parts = {Part::TORSO};
   if (b[0].y() < m_space.level("hip", 0.5)) {
@@ -175,11 +185,13 @@ void Placer::place_trunk(const PanelGroup& all) {
   }
   const Axis axis = m_space.trunk(group.side == Side::BACK);
   std::vector<Vec2> hull = m_space.points(axis, parts, b[0].y() - 0.02, b[1].y() + 0.02);
-  if (hull.size() < 3) hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
+  if (hull.size() < 3)
+    hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
   std::map<int, WrapCurve> curves;
   if (group.side == Side::RING) {
     double widest = 0; // panels of one height stand side by side: what overlaps in v adds up
-    for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
+    for (std::size_t k : group.panels)
+      widest = std::max(widest, row_width(group, k));
     for (std::size_t k : group.panels) {
       const int depth = m_depth[k];
       if (!curves.count(depth))
@@ -216,7 +228,8 @@ void Placer::place_trunk(const PanelGroup& all) {
     const bool beside_arms = bends.empty() && m_roles[k].part != "lower_body";
     put(k, [&](const Vec2& p) {
       Vec2 q = p;
-      for (const SleeveBend& bend : bends) q = bend.at(q);
+      for (const SleeveBend& bend : bends)
+        q = bend.at(q);
       const double t = std::clamp((pit - q.y()) / BELOW_PIT, 0.0, 1.0),
                    ratio = 1 + t * t * (3 - 2 * t) * (folded[depth][q.x() > 0] - 1);
       return axis.point(beside_arms && ratio > 1 ? in_folds(curve, q.x(), ratio) : curve.at(q.x()),
@@ -230,23 +243,28 @@ std::vector<SleeveBend> Placer::sleeve_bends(const PanelGroup& group, const Axis
   std::vector<SleeveBend> out;
   std::vector<std::vector<Vec2>> outlines;
   for (std::size_t k : group.panels) {
-    if (m_roles[k].part == "lower_body") continue;
+    if (m_roles[k].part == "lower_body")
+      continue;
     outlines.emplace_back();
-    for (int v : m_mesh.panels[k].outline) outlines.back().push_back(uv(k, v));
+    for (int v : m_mesh.panels[k].outline)
+      outlines.back().push_back(uv(k, v));
   }
   const double reach = std::max(std::abs(bounds(group)[0].x()), std::abs(bounds(group)[1].x()));
   for (const double sign : {1.0, -1.0}) {
     const bool left = sign * axis.right().x() > 0;
-    if (!m_space.has_arm(left)) continue;
+    if (!m_space.has_arm(left))
+      continue;
     const Axis arm =
         m_space.arm(left, 0, reach - std::abs(axis.plane(m_space.arm(left, 0, 0).origin).x()));
     const double out_to = sign * axis.plane(arm.origin).x();
     double u = 0; // along the cloth to above the joint
-    while (u < reach && sign * curve.at(sign * u).x() < out_to) u += 0.002;
+    while (u < reach && sign * curve.at(sign * u).x() < out_to)
+      u += 0.002;
     const Vec3 along = -arm.up;
     const auto bend = SleeveBend::find(outlines, sign, Vec2(sign * u, arm.origin.y()),
                                        std::atan2(along.y(), std::abs(along.x())));
-    if (bend) out.push_back(*bend);
+    if (bend)
+      out.push_back(*bend);
   }
   return out;
 }
@@ -256,7 +274,8 @@ void Placer::place_gores(std::size_t index) {
   const GoreRow& ring = m_rings[index];
   GoreTube& tube = m_ring_tubes[index];
   double extra = 0;
-  for (const Gore& g : ring.gores) extra = std::max(extra, m_groups[m_group_of[g.panel]].extra);
+  for (const Gore& g : ring.gores)
+    extra = std::max(extra, m_groups[m_group_of[g.panel]].extra);
   // What is on the chest has shoulders or armholes: there is no way all around.
   const double waist = m_space.level("waist_semantic", 0.63);
   const bool dress = ring.top > m_space.level("chest_axilla", 0.76) + 0.02;
@@ -280,7 +299,8 @@ void Placer::place_gores(std::size_t index) {
     }
     for (std::size_t k = 0; k < ring.gores.size(); ++k) {
       const Gore& gore = ring.gores[k];
-      if (gore.side != side) continue;
+      if (gore.side != side)
+        continue;
       const double out = LAYER * m_depth[gore.panel];
       if (wings && !curves.count(m_depth[gore.panel]))
         curves.emplace(m_depth[gore.panel],
@@ -289,7 +309,8 @@ void Placer::place_gores(std::size_t index) {
       put(gore.panel, [&](const Vec2& p) {
         const Gore::Place place = gore.at(p);
         const Vec3 low = tube.at(k, place, out);
-        if (!wings) return low;
+        if (!wings)
+          return low;
         const double t = std::clamp((waist - place.row) / INTO_SKIRT, 0.0, 1.0),
                      share = t * t * (3 - 2 * t);
         return Vec3(
@@ -320,13 +341,16 @@ void Placer::place_arm(const PanelGroup& group) {
       high = std::max(high, bounds(g)[1].y());
     }
   int facing = 2; // outwards
-  if (group.side == Side::FRONT) facing = 0;
-  if (group.side == Side::BACK) facing = 1;
+  if (group.side == Side::FRONT)
+    facing = 0;
+  if (group.side == Side::BACK)
+    facing = 1;
   const Axis axis = m_space.arm(left, facing, high - low);
   const double shift = m_arm_shift[left] - high;
   std::vector<Vec2> hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R},
                                           low + shift - 0.02, high + shift + 0.02);
-  if (hull.size() < 3) hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, -3, 3);
+  if (hull.size() < 3)
+    hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, -3, 3);
   if (hull.size() < 3)
     throw input_error("placement.limb-not-scanned"_id, "", "body",
                       std::string("the ") + (left ? "left" : "right") + " arm has no skin",
@@ -381,7 +405,8 @@ void Placer::place_leg(const PanelGroup& group) {
                                                : 0.045 * m_space.stature()) +
       0.025;
   std::optional<LegTube>& tube = m_tubes[left];
-  if (!tube) tube.emplace(m_space, left);
+  if (!tube)
+    tube.emplace(m_space, left);
   // The crotch starts a little below the body's, so that there is way between the legs for it.
   const double top = b[1].y(),
                from = std::min(legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(top - 0.25),
@@ -413,9 +438,11 @@ void Placer::place_neck(const PanelGroup& group) {
                          ? b[1].y()
                          : b[0].y() + 0.04; // a hood has to clear the head, a collar the neck
   std::vector<Vec2> hull = m_space.points(axis, {Part::HEAD, Part::TORSO}, b[0].y(), top);
-  if (hull.size() < 3) hull = m_space.points(axis, {Part::HEAD}, -1, 3);
+  if (hull.size() < 3)
+    hull = m_space.points(axis, {Part::HEAD}, -1, 3);
   double widest = 0;
-  for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
+  for (std::size_t k : group.panels)
+    widest = std::max(widest, row_width(group, k));
   for (std::size_t k : group.panels) {
     const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
     const WrapCurve curve = WrapCurve::around(hull, 0.008 + group.extra + LAYER * m_depth[k],
@@ -427,10 +454,14 @@ void Placer::place_neck(const PanelGroup& group) {
 }
 
 void Placer::place_group(const PanelGroup& g) {
-  if (!g.leg.empty()) place_leg(g);
-  else if (g.region == Region::TRUNK) place_trunk(g);
-  else if (g.region == Region::NECK) place_neck(g);
-  else place_arm(g);
+  if (!g.leg.empty())
+    place_leg(g);
+  else if (g.region == Region::TRUNK)
+    place_trunk(g);
+  else if (g.region == Region::NECK)
+    place_neck(g);
+  else
+    place_arm(g);
 }
 
 } // namespace sloper::pattern

@@ -20,10 +20,13 @@ std::vector<bool> named(const Pattern& pattern, const std::vector<std::string>& 
   for (const std::string& name : names) {
     bool found = false;
     for (std::size_t k = 0; k < out.size(); ++k)
-      if (is_named(pattern.panels[k], name)) out[k] = found = true;
-    if (found) continue;
+      if (is_named(pattern.panels[k], name))
+        out[k] = found = true;
+    if (found)
+      continue;
     std::string list;
-    for (const Panel& panel : pattern.panels) list += (list.empty() ? "" : ", ") + panel.name;
+    for (const Panel& panel : pattern.panels)
+      list += (list.empty() ? "" : ", ") + panel.name;
     throw input_error("dxf.no-piece"_id, file, name, "no piece has this name",
                       "its pieces are " + list);
   }
@@ -41,7 +44,8 @@ void remove_panels(Pattern& pattern, const std::vector<bool>& remove) {
   std::vector<int> index(remove.size(), -1);
   std::vector<Panel> panels;
   for (std::size_t k = 0; k < remove.size(); ++k) {
-    if (remove[k]) continue;
+    if (remove[k])
+      continue;
     index[k] = static_cast<int>(panels.size());
     panels.push_back(std::move(pattern.panels[k]));
   }
@@ -51,10 +55,11 @@ void remove_panels(Pattern& pattern, const std::vector<bool>& remove) {
     bool whole = true;
     for (auto* side : {&seam.a, &seam.b})
       for (Run& run : *side) {
-        run.panel = index[static_cast<std::size_t>(run.panel)];
+        run.panel = index[run.panel];
         whole = whole && run.panel >= 0;
       }
-    if (whole) seams.push_back(std::move(seam));
+    if (whole)
+      seams.push_back(std::move(seam));
     else
       pattern.findings.push_back({"pattern.seam-left-out"_id,
                                   "seam " + seam.name + " is left out with a piece that it joins"});
@@ -67,9 +72,11 @@ void choose_pieces(Pattern& pattern, const std::vector<std::string>& pieces,
   std::vector<bool> remove = named(pattern, without, file);
   if (!pieces.empty()) {
     const std::vector<bool> keep = named(pattern, pieces, file);
-    for (std::size_t k = 0; k < remove.size(); ++k) remove[k] = remove[k] || !keep[k];
+    for (std::size_t k = 0; k < remove.size(); ++k)
+      remove[k] = remove[k] || !keep[k];
   }
-  if (std::find(remove.begin(), remove.end(), true) != remove.end()) remove_panels(pattern, remove);
+  if (std::find(remove.begin(), remove.end(), true) != remove.end())
+    remove_panels(pattern, remove);
 }
 
 } // namespace sloper::pattern

@@ -21,20 +21,27 @@ constexpr double SNAP_TO_LINE = 0.003; // m: writers estimate lengths of curves;
 enum class PointKind { CORNER, SPLINE, BEZIER };
 
 PointKind kind_of(const io::Node& point) {
-  if (!point.has("PointType")) return PointKind::CORNER;
+  if (!point.has("PointType"))
+    return PointKind::CORNER;
   const io::Node type = point.at("PointType");
   if (type.is_number()) {
     const int number = type.integer();
-    if (number == 0) return PointKind::CORNER;
-    if (number == 2) return PointKind::SPLINE;
-    if (number == 3) return PointKind::BEZIER;
+    if (number == 0)
+      return PointKind::CORNER;
+    if (number == 2)
+      return PointKind::SPLINE;
+    if (number == 3)
+      return PointKind::BEZIER;
     type.fail("clo.malformed"_id, "unknown kind of point " + std::to_string(number),
               "known are 0 (straight), 2 (spline) and 3 (Bezier)");
   }
   const std::string word = type.string();
-  if (word.rfind("Straight", 0) == 0) return PointKind::CORNER;
-  if (word.rfind("Bezier", 0) == 0) return PointKind::BEZIER;
-  if (word.rfind("Spline", 0) == 0 || word.rfind("Curve", 0) == 0) return PointKind::SPLINE;
+  if (word.rfind("Straight", 0) == 0)
+    return PointKind::CORNER;
+  if (word.rfind("Bezier", 0) == 0)
+    return PointKind::BEZIER;
+  if (word.rfind("Spline", 0) == 0 || word.rfind("Curve", 0) == 0)
+    return PointKind::SPLINE;
   type.fail("clo.malformed"_id, "unknown kind of point '" + word + "'",
             "known are Straight, Spline and Bezier Curve");
 }
@@ -67,7 +74,8 @@ void add_bezier(const std::vector<Vec2>& points, const io::Node& line, Path& pat
 
 Path read_line(const io::Node& line, double unit) {
   const io::Node list = line.at("PointList");
-  if (list.size() < 2) list.fail("clo.malformed"_id, "a line has fewer than two points");
+  if (list.size() < 2)
+    list.fail("clo.malformed"_id, "a line has fewer than two points");
   std::vector<Vec2> points;
   std::vector<PointKind> kinds;
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -79,12 +87,16 @@ Path read_line(const io::Node& line, double unit) {
   Path path;
   for (std::size_t from = 0; from + 1 < points.size();) {
     std::size_t to = from + 1;
-    while (kinds[to] != PointKind::CORNER) ++to;
+    while (kinds[to] != PointKind::CORNER)
+      ++to;
     const std::vector<Vec2> stretch(points.begin() + static_cast<long>(from),
                                     points.begin() + static_cast<long>(to) + 1);
-    if (to == from + 1) path.push_back(Segment::straight(points[from], points[to]));
-    else if (kinds[from + 1] == PointKind::BEZIER) add_bezier(stretch, line, path);
-    else add_spline(stretch, path);
+    if (to == from + 1)
+      path.push_back(Segment::straight(points[from], points[to]));
+    else if (kinds[from + 1] == PointKind::BEZIER)
+      add_bezier(stretch, line, path);
+    else
+      add_spline(stretch, path);
     from = to;
   }
   return path;
@@ -99,7 +111,8 @@ struct Piece {
 
 std::string id_of(const io::Node& node) {
   for (const char* key : {"ID", "ShapeID"})
-    if (node.has(key)) return node.at(key).string();
+    if (node.has(key))
+      return node.at(key).string();
   return "";
 }
 
@@ -110,13 +123,17 @@ public:
   }
 
   Pattern run() {
-    if (m_root.has("Unit")) m_unit = unit_of(m_root.at("Unit"));
+    if (m_root.has("Unit"))
+      m_unit = unit_of(m_root.at("Unit"));
     const io::Node list = m_root.at("PatternList");
-    if (!list.is_array() || list.size() == 0) list.fail("clo.malformed"_id, "there are no pieces");
-    for (std::size_t k = 0; k < list.size(); ++k) read_piece(list.at(k));
+    if (!list.is_array() || list.size() == 0)
+      list.fail("clo.malformed"_id, "there are no pieces");
+    for (std::size_t k = 0; k < list.size(); ++k)
+      read_piece(list.at(k));
     if (m_root.has("SeamLinePairGroupList")) {
       const io::Node groups = m_root.at("SeamLinePairGroupList");
-      for (std::size_t g = 0; g < groups.size(); ++g) read_group(groups.at(g), g);
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        read_group(groups.at(g), g);
     }
     if (m_inner > 0)
       m_pattern.findings.push_back(
@@ -139,7 +156,8 @@ private:
     if (!shape.has("LineList") || shape.at("LineList").size() < 2)
       shape.fail("clo.malformed"_id, "the piece " + panel.name + " has no outline",
                  "export the pattern again, with its shapes, or as DXF (AAMA or ASTM)");
-    if (node.has("InternalLineList")) m_inner += node.at("InternalLineList").size();
+    if (node.has("InternalLineList"))
+      m_inner += node.at("InternalLineList").size();
     read_outline(shape.at("LineList"), panel);
     Piece piece;
     piece.panel = static_cast<int>(m_pattern.panels.size());
@@ -152,7 +170,8 @@ private:
     piece.against = signed_area(paths) < 0; // listed so; pieces are always seen from outside
     if (piece.against) {
       std::reverse(panel.loops[0].begin(), panel.loops[0].end());
-      for (PanelEdge& e : panel.loops[0]) e.path = reversed(e.path);
+      for (PanelEdge& e : panel.loops[0])
+        e.path = reversed(e.path);
     }
     m_pieces.emplace(id_of(node), piece);
     m_pattern.panels.push_back(std::move(panel));
@@ -181,7 +200,8 @@ private:
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       Seam seam;
       seam.name = group.string("Name", "seam " + std::to_string(number));
-      if (pairs.size() > 1) seam.name += "." + std::to_string(k);
+      if (pairs.size() > 1)
+        seam.name += "." + std::to_string(k);
       seam.a = side(pairs.at(k).at("First"));
       seam.b = side(pairs.at(k).at("Second"));
       if (seam.a.empty() || seam.b.empty()) {
@@ -190,7 +210,8 @@ private:
              "seam " + seam.name + " is left out: one side is on no outline that is listed"});
         continue;
       }
-      if (seam.a[0].panel == seam.b[0].panel) seam.kind = "dart";
+      if (seam.a[0].panel == seam.b[0].panel)
+        seam.kind = "dart";
       m_pattern.seams.push_back(std::move(seam));
     }
   }
@@ -198,7 +219,8 @@ private:
   /// Runs of one side; none where it is not on an outline.
   std::vector<Run> side(const io::Node& node) const {
     const auto found = m_pieces.find(node.at("ShapeID").string());
-    if (found == m_pieces.end()) return {};
+    if (found == m_pieces.end())
+      return {};
     const Piece& piece = found->second;
     const double whole = piece.starts.back();
     double from = 0, to = whole;
@@ -207,7 +229,8 @@ private:
       const io::Node stretch = node.at("LengthParam");
       from = fraction(stretch.at("fStart")) * whole;
       to = fraction(stretch.at("fEnd")) * whole;
-      if (!node.has("Direction")) forward = from < to;
+      if (!node.has("Direction"))
+        forward = from < to;
       // Where direction and order contradict each other, it is the shorter stretch.
       const double ahead = std::fmod(to - from + whole, whole);
       if (forward != (from < to) && (forward ? ahead : whole - ahead) > 0.5 * whole)
@@ -216,13 +239,16 @@ private:
       const std::size_t line = line_named(node, piece);
       from = piece.starts[line];
       to = piece.starts[line + 1];
-      if (!forward) std::swap(from, to);
+      if (!forward)
+        std::swap(from, to);
     }
-    if (!forward) std::swap(from, to);
+    if (!forward)
+      std::swap(from, to);
     std::vector<Run> runs = stretch(piece, snapped(piece, from), snapped(piece, to));
     if (runs.empty())
       node.fail("clo.malformed"_id, "a side of the seam is empty", "give it a length");
-    if (!forward) turn(runs);
+    if (!forward)
+      turn(runs);
     return runs;
   }
 
@@ -240,19 +266,22 @@ private:
     const io::Node lines =
         pieces.at(static_cast<std::size_t>(piece.panel)).at("ShapeInfo").at("LineList");
     for (std::size_t k = 0; k < lines.size(); ++k)
-      if (id_of(lines.at(k)) == id) return k;
+      if (id_of(lines.at(k)) == id)
+        return k;
     node.fail("clo.malformed"_id, "the piece has no line '" + id + "'");
   }
 
   static double snapped(const Piece& piece, double at) {
     for (double end : piece.starts)
-      if (std::abs(end - at) < SNAP_TO_LINE) return end;
+      if (std::abs(end - at) < SNAP_TO_LINE)
+        return end;
     return at;
   }
 
   static void turn(std::vector<Run>& runs) {
     std::reverse(runs.begin(), runs.end());
-    for (Run& run : runs) std::swap(run.from, run.to);
+    for (Run& run : runs)
+      std::swap(run.from, run.to);
   }
 
   /// Along the outline as it is listed, from one place forward to another, over its start where
@@ -261,17 +290,20 @@ private:
     const double whole = piece.starts.back();
     std::vector<Run> runs;
     if (to <= from) {
-      if (from < whole) add_runs(piece, from, whole, runs);
-      if (to > 0) add_runs(piece, 0, to, runs);
-    } else add_runs(piece, from, to, runs);
+      if (from < whole)
+        add_runs(piece, from, whole, runs);
+      if (to > 0)
+        add_runs(piece, 0, to, runs);
+    } else
+      add_runs(piece, from, to, runs);
     return runs;
   }
   static void add_runs(const Piece& piece, double from, double to, std::vector<Run>& runs) {
     const int n = static_cast<int>(piece.starts.size()) - 1;
     for (int k = 0; k < n; ++k) {
-      const double begin = piece.starts[static_cast<std::size_t>(k)],
-                   end = piece.starts[static_cast<std::size_t>(k) + 1];
-      if (to <= begin || from >= end) continue;
+      const double begin = piece.starts[k], end = piece.starts[static_cast<std::size_t>(k) + 1];
+      if (to <= begin || from >= end)
+        continue;
       double a = (std::max(from, begin) - begin) / (end - begin),
              b = (std::min(to, end) - begin) / (end - begin);
       int edge = k;

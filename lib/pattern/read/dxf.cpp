@@ -78,7 +78,8 @@ public:
       for (const DxfText& t : block->texts)
         m_states_seams = m_states_seams || (t.layer == 15 && t.text.rfind("SEW ", 0) == 0);
     }
-    for (const DxfBlock* block : blocks) read_piece(*block);
+    for (const DxfBlock* block : blocks)
+      read_piece(*block);
     if (m_pattern.panels.empty())
       throw input_error("dxf.no-outline"_id, m_file, "",
                         "no block has a closed outline on layer 14 or 1",
@@ -90,14 +91,18 @@ public:
 
 private:
   double unit() {
-    if (m_choice.unit > 0) return m_choice.unit;
+    if (m_choice.unit > 0)
+      return m_choice.unit;
     std::string word = find_value(m_dxf.texts, "Units");
     for (const DxfBlock& b : m_dxf.blocks)
-      if (word.empty()) word = find_value(b.texts, "Units");
+      if (word.empty())
+        word = find_value(b.texts, "Units");
     std::transform(word.begin(), word.end(), word.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    if (word.rfind("METRIC", 0) == 0 || word.rfind("MM", 0) == 0) return units::MM;
-    if (word.rfind("CM", 0) == 0) return units::CM;
+    if (word.rfind("METRIC", 0) == 0 || word.rfind("MM", 0) == 0)
+      return units::MM;
+    if (word.rfind("CM", 0) == 0)
+      return units::CM;
     if (word.rfind("ENGLISH", 0) == 0 || word.rfind("INCH", 0) == 0 ||
         word.rfind("IMPERIAL", 0) == 0)
       return units::INCH;
@@ -125,7 +130,8 @@ private:
       for (std::size_t k = 0; k < line.points.size(); ++k) {
         low = low.cwiseMin(line.points[k]);
         high = high.cwiseMax(line.points[k]);
-        if (k > 0) length += (line.points[k] - line.points[k - 1]).norm();
+        if (k > 0)
+          length += (line.points[k] - line.points[k - 1]).norm();
       }
     return {-length, high.x() - low.x(), high.y() - low.y(), low.x(), low.y()};
   }
@@ -137,15 +143,18 @@ private:
     const std::string sample = find_value(m_dxf.texts, "Sample Size");
     std::vector<std::string> known; // sizes
     for (const DxfBlock& b : m_dxf.blocks) {
-      if (b.lines.empty()) continue;
+      if (b.lines.empty())
+        continue;
       std::string piece = find_value(b.texts, "Piece Name");
-      if (piece.empty()) piece = b.name;
+      if (piece.empty())
+        piece = b.name;
       by_piece[piece].push_back(&b);
     }
     std::vector<const DxfBlock*> out;
     for (auto& [piece, blocks] : by_piece) {
       std::map<std::string, int> sizes;
-      for (const DxfBlock* b : blocks) ++sizes[find_value(b->texts, "Size")];
+      for (const DxfBlock* b : blocks)
+        ++sizes[find_value(b->texts, "Size")];
       if (blocks.size() == 1 ||
           sizes.size() < blocks.size()) { // the same name and size twice: two pieces
         std::stable_sort(blocks.begin(), blocks.end(), [&](const DxfBlock* a, const DxfBlock* b) {
@@ -155,19 +164,23 @@ private:
         continue;
       }
       for (const auto& [size, n] : sizes)
-        if (std::find(known.begin(), known.end(), size) == known.end()) known.push_back(size);
+        if (std::find(known.begin(), known.end(), size) == known.end())
+          known.push_back(size);
       const DxfBlock* pick = nullptr;
       for (const std::string& wanted :
            {m_choice.size, m_choice.size.empty() ? sample : std::string()})
         for (const DxfBlock* b : blocks)
-          if (!pick && !wanted.empty() && find_value(b->texts, "Size") == wanted) pick = b;
+          if (!pick && !wanted.empty() && find_value(b->texts, "Size") == wanted)
+            pick = b;
       if (!pick && !m_choice.size.empty() && !m_choice.rules) {
         std::string list;
-        for (const auto& [size, n] : sizes) list += (list.empty() ? "" : ", ") + size;
+        for (const auto& [size, n] : sizes)
+          list += (list.empty() ? "" : ", ") + size;
         throw input_error("dxf.no-size"_id, m_file, piece,
                           "there is no size '" + m_choice.size + "'", "its sizes are " + list);
       }
-      if (!pick) pick = blocks[blocks.size() / 2];
+      if (!pick)
+        pick = blocks[blocks.size() / 2];
       out.push_back(pick);
       m_pattern.findings.push_back(
           {"dxf.size-taken"_id, piece + ": " + std::to_string(blocks.size()) + " sizes; size " +
@@ -183,7 +196,8 @@ private:
 
   /// Moves a ring to the size asked for by the rule numbers written at its points ("# 7").
   void grade(const DxfBlock& block, PointRing& ring, const std::string& panel) {
-    if (!m_choice.rules || m_size == m_choice.rules->sample) return;
+    if (!m_choice.rules || m_size == m_choice.rules->sample)
+      return;
     constexpr double AT_POINT = 1e-3,
                      AT_CORNER =
                          0.07; // m: on the ring, or on the cut line beside a corner of the sew line
@@ -202,12 +216,14 @@ private:
                           "give the table that belongs to the file");
       std::size_t best = 0;
       for (std::size_t k = 1; k < ring.size(); ++k)
-        if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm()) best = k;
+        if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm())
+          best = k;
       if ((ring[best] - t.p * m_unit).norm() > AT_POINT) {
         const std::vector<std::size_t> corners = corners_of(ring, {});
         best = corners[0];
         for (std::size_t k : corners)
-          if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm()) best = k;
+          if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm())
+            best = k;
       }
       const double distance = (ring[best] - t.p * m_unit).norm();
       if (distance < AT_CORNER && distance < nearest[best]) {
@@ -230,12 +246,15 @@ private:
     const auto is_notch = [](int layer) { return layer == 4 || (layer >= 80 && layer <= 83); };
     std::vector<std::pair<Vec2, int>> marks;
     for (const DxfPoint& p : block.points)
-      if (is_notch(p.layer)) marks.push_back({p.p * m_unit, p.layer});
-    for (const Vec2& p : cut_slits) marks.push_back({p, 4});
+      if (is_notch(p.layer))
+        marks.push_back({p.p * m_unit, p.layer});
+    for (const Vec2& p : cut_slits)
+      marks.push_back({p, 4});
     std::vector<std::vector<Vec2>> slits;
     std::vector<int> layers;
     for (const DxfLine& line : block.lines) {
-      if (!is_notch(line.layer) || line.points.size() < 2) continue;
+      if (!is_notch(line.layer) || line.points.size() < 2)
+        continue;
       const Vec2 a = line.points.front() * m_unit, b = line.points.back() * m_unit,
                  p = distance_to_ring(cut, a) <= distance_to_ring(cut, b) ? a : b;
       if (!slits.empty() && layers.back() == line.layer &&
@@ -248,7 +267,8 @@ private:
     }
     for (std::size_t k = 0; k < slits.size(); ++k) {
       Vec2 sum = Vec2::Zero();
-      for (const Vec2& p : slits[k]) sum += p;
+      for (const Vec2& p : slits[k])
+        sum += p;
       const Vec2 at = sum / static_cast<double>(slits[k].size());
       if (std::none_of(marks.begin(), marks.end(),
                        [&](const auto& m) { return (m.first - at).norm() < SIDE_BY_SIDE; }))
@@ -265,14 +285,16 @@ private:
           at = k / 1000.0;
         }
       }
-      if (best < reach) panel.notches.push_back({e, at, "layer " + std::to_string(layer)});
+      if (best < reach)
+        panel.notches.push_back({e, at, "layer " + std::to_string(layer)});
     }
   }
 
   void read_piece(const DxfBlock& block) {
     Panel panel;
     panel.name = find_value(block.texts, "Piece Name");
-    if (panel.name.empty()) panel.name = block.name;
+    if (panel.name.empty())
+      panel.name = block.name;
     for (int k = 2; m_pattern.find_panel(panel.name) >= 0; ++k) { // reused names
       const std::string base = panel.name.substr(0, panel.name.rfind('#'));
       panel.name = base + "#" + std::to_string(k);
@@ -284,7 +306,8 @@ private:
     if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal
                          // lines
       const std::vector<PointRing> inner = rings_of(block, 8, m_unit, join);
-      if (!inner.empty() && !cut.empty() && follows(inner[0], cut[0])) outer = {inner[0]};
+      if (!inner.empty() && !cut.empty() && follows(inner[0], cut[0]))
+        outer = {inner[0]};
     } else if (!cut.empty() && !follows(outer[0], cut[0])) { // some programs write broken sew lines
       const double percent =
           100 * std::abs(ring_area(outer[0])) /
@@ -309,10 +332,12 @@ private:
       return;
     }
     PointRing ring = outer[0];
-    if (ring_area(ring) < 0) std::reverse(ring.begin(), ring.end());
+    if (ring_area(ring) < 0)
+      std::reverse(ring.begin(), ring.end());
     std::vector<Vec2> turns;
     for (const DxfPoint& p : block.points)
-      if (p.layer == 2) turns.push_back(p.p * m_unit);
+      if (p.layer == 2)
+        turns.push_back(p.p * m_unit);
     const std::vector<Vec2> slits = take_slits_off(ring);
     if (!slits.empty())
       m_pattern.findings.push_back(
@@ -327,7 +352,8 @@ private:
     }
     panel.loops.push_back(edges_of(ring, corners, "edge"));
     for (PointRing hole : rings_of(block, 11, m_unit, join)) {
-      if (ring_area(hole) > 0) std::reverse(hole.begin(), hole.end());
+      if (ring_area(hole) > 0)
+        std::reverse(hole.begin(), hole.end());
       panel.loops.push_back(edges_of(hole, corners_of(hole, turns),
                                      "hole" + std::to_string(panel.loops.size()) + "_"));
     }
@@ -338,19 +364,23 @@ private:
           panel.grain = (along.y() < -1e-9 * along.norm() ? Vec2(-along) : along).normalized();
       }
     read_notches(block, cut.empty() ? ring : cut[0], slits, panel);
-    if (!m_choice.rules || m_size == m_choice.rules->sample) read_marks(block, panel);
-    const int index = static_cast<int>(m_pattern.panels.size());
+    if (!m_choice.rules || m_size == m_choice.rules->sample)
+      read_marks(block, panel);
+    const int index = std::ssize(m_pattern.panels);
     const PieceNotes notes = piece_notes(block);
     panel.label = notes.category.empty() ? notes.material : notes.category;
     read_sewing(block, panel, index);
     int fold = -1;
     for (const DxfLine& line : block.lines)
-      if (line.layer == 6 && line.points.size() >= 2) fold = fold_edge(panel, line);
+      if (line.layer == 6 && line.points.size() >= 2)
+        fold = fold_edge(panel, line);
     // Notches and seams are fractions of edges, so the outline may move under them.
     grade(block, ring, panel.name);
     const std::vector<PanelEdge> graded = edges_of(ring, corners, "edge");
-    for (std::size_t k = 0; k < graded.size(); ++k) panel.loops[0][k].path = graded[k].path;
-    if (fold >= 0) open_fold(panel, fold);
+    for (std::size_t k = 0; k < graded.size(); ++k)
+      panel.loops[0][k].path = graded[k].path;
+    if (fold >= 0)
+      open_fold(panel, fold);
     const bool alike = fold >= 0 || is_symmetric(ring);
     m_pattern.panels.push_back(std::move(panel));
     m_why_out.push_back(reason_to_leave(block, notes, ring, m_any_wanted));
@@ -361,7 +391,8 @@ private:
   /// other's image and go around no limb, as a collar's stand, one is the inside.
   void make_pair_of(const PieceNotes& notes, bool alike) {
     const Panel& drawn = m_pattern.panels.back();
-    if (notes.copies < 2) return;
+    if (notes.copies < 2)
+      return;
     Words words = words_of(drawn.name);
     words.merge(words_of(notes.category));
     const bool limb = says_sleeve(words) || says_cuff(words) || says_legs(words);
@@ -393,7 +424,8 @@ private:
       remove[k] = !m_why_out[k].empty() && !asked && !m_states_seams &&
                   m_choice.sewn.count(panel.name) == 0;
     }
-    if (std::find(remove.begin(), remove.end(), false) == remove.end()) return;
+    if (std::find(remove.begin(), remove.end(), false) == remove.end())
+      return;
     for (std::size_t k = 0; k < remove.size(); ++k)
       if (remove[k])
         m_pattern.findings.push_back(
@@ -406,12 +438,14 @@ private:
   void read_marks(const DxfBlock& block, Panel& panel) {
     constexpr double SHORTEST = 0.01; // m
     for (const DxfLine& line : block.lines) {
-      if (line.layer != 8 || line.closed || line.points.size() < 2) continue;
+      if (line.layer != 8 || line.closed || line.points.size() < 2)
+        continue;
       InnerLine mark{"mark" + std::to_string(panel.lines.size() + 1), "mark", {}, 1, 0.01};
       double off = 0;
       for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
         const Vec2 a = line.points[k] * m_unit, b = line.points[k + 1] * m_unit;
-        if ((a - b).norm() > 1e-6) mark.path.push_back(Segment::straight(a, b));
+        if ((a - b).norm() > 1e-6)
+          mark.path.push_back(Segment::straight(a, b));
         double near = 1e300;
         for (int e = 0; e < panel.n_edges(); ++e)
           near = std::min(near, distance_to_path(panel.edge(e).path, 0.5 * (a + b)));
@@ -426,8 +460,7 @@ private:
   int fold_edge(const Panel& panel, const DxfLine& line) {
     const Vec2 middle = 0.5 * (line.points.front() + line.points.back()) * m_unit;
     const int e = edge_near(panel, middle);
-    if (e < static_cast<int>(panel.loops[0].size()) &&
-        distance_to_path(panel.edge(e).path, middle) < 1e-3)
+    if (e < std::ssize(panel.loops[0]) && distance_to_path(panel.edge(e).path, middle) < 1e-3)
       return e;
     m_pattern.findings.push_back(
         {"dxf.mirror-line"_id,
@@ -439,8 +472,9 @@ private:
   /// edges.
   void open_fold(Panel& panel, int fold) {
     std::vector<std::pair<std::string, Notch>> notches;
-    for (const Notch& n : panel.notches) notches.push_back({panel.edge(n.edge).name, n});
-    const int index = static_cast<int>(m_pattern.panels.size());
+    for (const Notch& n : panel.notches)
+      notches.push_back({panel.edge(n.edge).name, n});
+    const int index = std::ssize(m_pattern.panels);
     std::vector<std::pair<DxfSewing::Text*, std::string>> sewn;
     for (DxfSewing::Text* t : m_sewing.texts_of(index))
       sewn.push_back({t, panel.edge(t->edge).name});
@@ -451,7 +485,8 @@ private:
                ": its mirror line is not on a straight edge; the piece is taken as whole"});
       return;
     }
-    for (auto& [text, name] : sewn) text->edge = panel.find_edge(name);
+    for (auto& [text, name] : sewn)
+      text->edge = panel.find_edge(name);
     panel.notches.clear();
     for (const auto& [name, notch] : notches)
       for (const bool mirror : {false, true})

@@ -10,7 +10,8 @@ namespace sloper::pattern {
 namespace {
 
 std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
+  while (!s.empty() && (s.front() == ' ' || s.front() == '\t'))
+    s.remove_prefix(1);
   while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r'))
     s.remove_suffix(1);
   return s;
@@ -18,18 +19,23 @@ std::string_view trimmed(std::string_view s) {
 
 /// Bytes of the code point that begins with c in UTF-8; 0 where none does.
 std::size_t utf8_length(unsigned char c) {
-  if (c < 0x80) return 1;        // 0.......
-  if ((c >> 5) == 6) return 2;   // 110.....
-  if ((c >> 4) == 14) return 3;  // 1110....
+  if (c < 0x80)
+    return 1; // 0.......
+  if ((c >> 5) == 6)
+    return 2; // 110.....
+  if ((c >> 4) == 14)
+    return 3;                    // 1110....
   return (c >> 3) == 30 ? 4 : 0; // 11110...
 }
 
 bool is_utf8(std::string_view s) {
   for (std::size_t k = 0; k < s.size();) {
     const std::size_t n = utf8_length(static_cast<unsigned char>(s[k]));
-    if (n == 0 || k + n > s.size()) return false;
+    if (n == 0 || k + n > s.size())
+      return false;
     for (std::size_t i = 1; i < n; ++i)
-      if ((static_cast<unsigned char>(s[k + i]) >> 6) != 2) return false;
+      if ((static_cast<unsigned char>(s[k + i]) >> 6) != 2)
+        return false;
     k += n;
   }
   return true;
@@ -37,11 +43,13 @@ bool is_utf8(std::string_view s) {
 
 /// Text that is not UTF-8 is taken as Latin-1, which every byte is.
 std::string utf8(std::string_view s) {
-  if (is_utf8(s)) return std::string(s);
+  if (is_utf8(s))
+    return std::string(s);
   std::string out;
   for (char raw : s) {
     const unsigned char c = static_cast<unsigned char>(raw);
-    if (c < 0x80) out += raw;
+    if (c < 0x80)
+      out += raw;
     else {
       out += static_cast<char>(0xC0 | (c >> 6));
       out += static_cast<char>(0x80 | (c & 0x3F));
@@ -57,21 +65,24 @@ public:
   bool next() {
     std::string_view code_line;
     do {
-      if (!line(code_line)) return false;
+      if (!line(code_line))
+        return false;
     } while (trimmed(code_line).empty());
     const std::string_view digits = trimmed(code_line);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
     if (error != std::errc() || end != digits.data() + digits.size())
       fail("'" + utf8(digits.substr(0, 40)) + "' is not a group code");
     std::string_view value_line;
-    if (!line(value_line)) fail("the file ends within a group");
+    if (!line(value_line))
+      fail("the file ends within a group");
     value = trimmed(value_line);
     return true;
   }
   double number() const {
     double x = 0;
     std::string_view digits = value;
-    if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+    if (!digits.empty() && digits.front() == '+')
+      digits.remove_prefix(1);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
     if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x))
       fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is not a number"));
@@ -94,7 +105,8 @@ public:
 
 private:
   bool line(std::string_view& out) {
-    if (m_rest.empty()) return false;
+    if (m_rest.empty())
+      return false;
     ++m_line;
     const std::size_t end = m_rest.find('\n');
     out = m_rest.substr(0, end);
@@ -146,7 +158,8 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
       in_polyline = false;
     } else if (entity.kind == "LWPOLYLINE") {
       DxfLine line{entity.layer, (entity.flags & 1) != 0, {}};
-      for (std::size_t k = 0; k < entity.x.size(); ++k) line.points.push_back(point(k));
+      for (std::size_t k = 0; k < entity.x.size(); ++k)
+        line.points.push_back(point(k));
       target.lines.push_back(line);
     } else if (entity.kind == "LINE" && !entity.x.empty())
       target.lines.push_back({entity.layer, false, {point(0), Vec2(entity.x2, entity.y2)}});
@@ -167,15 +180,19 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
       if (entity.kind == "BLOCK") {
         out.blocks.push_back({});
         block = &out.blocks.back();
-      } else if (entity.kind == "ENDBLK" || entity.kind == "ENDSEC") block = nullptr;
-      else if (entity.kind == "EOF") break;
+      } else if (entity.kind == "ENDBLK" || entity.kind == "ENDSEC")
+        block = nullptr;
+      else if (entity.kind == "EOF")
+        break;
       continue;
     }
     switch (tags.code) {
     case 1: entity.text = utf8(tags.value); break;
     case 2:
-      if (entity.kind == "SECTION") section = std::string(tags.value);
-      if (entity.kind == "BLOCK" && block) block->name = utf8(tags.value);
+      if (entity.kind == "SECTION")
+        section = std::string(tags.value);
+      if (entity.kind == "BLOCK" && block)
+        block->name = utf8(tags.value);
       break;
     case 8: {
       const std::string_view v = tags.value;
@@ -191,8 +208,10 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     case 21: entity.y2 = tags.number(); break;
     case 70:
       if (section == "HEADER") {
-        if (variable == "$INSUNITS") out.insunits = tags.whole();
-        if (variable == "$MEASUREMENT") out.measurement = tags.whole();
+        if (variable == "$INSUNITS")
+          out.insunits = tags.whole();
+        if (variable == "$MEASUREMENT")
+          out.measurement = tags.whole();
       }
       entity.flags = tags.whole();
       break;
@@ -205,7 +224,8 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
   if (!any || (flat && out.loose.lines.empty()))
     throw input_error("dxf.no-outline"_id, file, "", "there are no blocks, so there are no pieces",
                       "give an AAMA or ASTM DXF, one block per piece");
-  if (flat) out.blocks.clear();
+  if (flat)
+    out.blocks.clear();
   return out;
 }
 

@@ -17,14 +17,18 @@ std::vector<PointRing> rings_of(const DxfBlock& block, int layer, double unit, d
   std::vector<PointRing> rings;
   std::vector<PointRing> open;
   for (const DxfLine& line : block.lines) {
-    if (line.layer != layer) continue;
+    if (line.layer != layer)
+      continue;
     PointRing points;
     for (const Vec2& p : line.points)
-      if (points.empty() || (points.back() - p * unit).norm() > 1e-6) points.push_back(p * unit);
-    if (points.size() < 2) continue;
+      if (points.empty() || (points.back() - p * unit).norm() > 1e-6)
+        points.push_back(p * unit);
+    if (points.size() < 2)
+      continue;
     if (line.closed || (points.size() > 3 && (points.front() - points.back()).norm() < join))
       rings.push_back(points);
-    else open.push_back(points);
+    else
+      open.push_back(points);
   }
   while (!open.empty()) {
     PointRing chain = open.front();
@@ -34,18 +38,22 @@ std::vector<PointRing> rings_of(const DxfBlock& block, int layer, double unit, d
       for (std::size_t k = 0; k < open.size() && !grown; ++k)
         for (bool turn : {false, true}) {
           PointRing next = open[k];
-          if (turn) std::reverse(next.begin(), next.end());
-          if ((next.front() - chain.back()).norm() >= join) continue;
+          if (turn)
+            std::reverse(next.begin(), next.end());
+          if ((next.front() - chain.back()).norm() >= join)
+            continue;
           chain.insert(chain.end(), next.begin() + 1, next.end());
           open.erase(open.begin() + static_cast<long>(k));
           grown = true;
           break;
         }
     }
-    if (chain.size() > 3 && (chain.front() - chain.back()).norm() < join) rings.push_back(chain);
+    if (chain.size() > 3 && (chain.front() - chain.back()).norm() < join)
+      rings.push_back(chain);
   }
   for (PointRing& r : rings)
-    while (r.size() > 1 && (r.front() - r.back()).norm() < 1e-6) r.pop_back();
+    while (r.size() > 1 && (r.front() - r.back()).norm() < 1e-6)
+      r.pop_back();
   rings.erase(
       std::remove_if(rings.begin(), rings.end(), [](const PointRing& r) { return r.size() < 3; }),
       rings.end());
@@ -86,14 +94,16 @@ std::vector<std::size_t> corners_of(const PointRing& ring, const std::vector<Vec
         corners.push_back(k);
         break;
       }
-  if (!corners.empty()) return corners;
+  if (!corners.empty())
+    return corners;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec2 in = ring[k] - ring[(k + ring.size() - 1) % ring.size()],
                out = ring[(k + 1) % ring.size()] - ring[k];
     if (std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) > units::radians(30))
       corners.push_back(k);
   }
-  if (corners.empty()) corners.push_back(0);
+  if (corners.empty())
+    corners.push_back(0);
   return corners;
 }
 

@@ -14,19 +14,25 @@ void DxfSewing::read(const std::string& text, Panel& panel, int index, int edge,
   std::string what, seam, side, direction, run;
   int order = 0;
   words >> what;
-  if (what == "RUN" && words >> run) panel.edge(edge).name = run;
-  if (what != "SEW" || !(words >> seam >> side >> order >> direction >> run)) return;
+  if (what == "RUN" && words >> run)
+    panel.edge(edge).name = run;
+  if (what != "SEW" || !(words >> seam >> side >> order >> direction >> run))
+    return;
   panel.edge(edge).name = run;
   if ((side != "a" && side != "b") || (direction != "+" && direction != "-"))
     throw input_error("dxf.sewing-text"_id, file, panel.name, "'" + text + "' is not a sewing text",
                       "write SEW <seam> <a|b> <order> <+|-> <run>");
-  if (std::find(m_order.begin(), m_order.end(), seam) == m_order.end()) m_order.push_back(seam);
+  if (std::find(m_order.begin(), m_order.end(), seam) == m_order.end())
+    m_order.push_back(seam);
   Said& said = m_seams[seam];
   said.sides[side == "b"].push_back({index, edge, order, direction == "+"});
   for (std::string word; words >> word;)
-    if (word == "seam" || word == "dart" || word == "gather" || word == "closure") said.kind = word;
-    else if (word == "open") said.open = true;
-    else if (word == "ease") std::getline(words >> std::ws, said.ease);
+    if (word == "seam" || word == "dart" || word == "gather" || word == "closure")
+      said.kind = word;
+    else if (word == "open")
+      said.open = true;
+    else if (word == "ease")
+      std::getline(words >> std::ws, said.ease);
 }
 
 std::vector<DxfSewing::Text*> DxfSewing::texts_of(int panel) {
@@ -34,7 +40,8 @@ std::vector<DxfSewing::Text*> DxfSewing::texts_of(int panel) {
   for (auto& [name, said] : m_seams)
     for (auto& side : said.sides)
       for (Text& t : side)
-        if (t.panel == panel) out.push_back(&t);
+        if (t.panel == panel)
+          out.push_back(&t);
   return out;
 }
 
@@ -59,9 +66,12 @@ void DxfSewing::make_seams(Pattern& pattern, const std::string& file) const {
         name.find("dart") != std::string::npos)
       seam.kind = "dart";
     const double ratio = side_length(pattern, seam.a) / side_length(pattern, seam.b);
-    if (ratio > MOST_UNEVEN || ratio < 1 / MOST_UNEVEN) seam.kind = "gather";
-    if (name.find("clos") != std::string::npos) seam.kind = "closure";
-    if (!said.kind.empty()) seam.kind = said.kind;
+    if (ratio > MOST_UNEVEN || ratio < 1 / MOST_UNEVEN)
+      seam.kind = "gather";
+    if (name.find("clos") != std::string::npos)
+      seam.kind = "closure";
+    if (!said.kind.empty())
+      seam.kind = said.kind;
     seam.open = said.open;
     seam.ease = said.ease;
     pattern.seams.push_back(std::move(seam));

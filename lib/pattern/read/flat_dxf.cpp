@@ -34,7 +34,8 @@ double extent_of(const DxfBlock& block) {
 
 std::vector<DxfBlock> pieces_of_drawing(const DxfFile& drawing) {
   DxfBlock lines = drawing.loose;
-  for (DxfLine& line : lines.lines) line.layer = 1;
+  for (DxfLine& line : lines.lines)
+    line.layer = 1;
   const std::vector<PointRing> rings =
       rings_of(lines, 1, 1, JOINS * extent_of(lines)); // the largest first
   std::vector<PointRing> outer;
@@ -50,7 +51,8 @@ std::vector<DxfBlock> pieces_of_drawing(const DxfFile& drawing) {
     for (const DxfText& text : drawing.texts)
       if (encloses(ring, text.p)) {
         piece.texts.push_back(text);
-        if (piece.name.rfind("piece", 0) == 0) piece.name = text.text;
+        if (piece.name.rfind("piece", 0) == 0)
+          piece.name = text.text;
       }
   }
   return pieces;

@@ -18,19 +18,22 @@ struct EdgeReader {
 
   Vec2 control(const io::Node& node, const Vec2& a, const Vec2& b) const {
     const Vec2 c = node.vec2();
-    if (!relative) return c * unit;
+    if (!relative)
+      return c * unit;
     const Vec2 along = b - a;
     return a + c.x() * along + c.y() * Vec2(-along.y(), along.x());
   }
 
   Path path(const io::Node& edge, const Vec2& a, const Vec2& b) const {
-    if (!edge.has("curvature") || edge.at("curvature").is_null()) return {Segment::straight(a, b)};
+    if (!edge.has("curvature") || edge.at("curvature").is_null())
+      return {Segment::straight(a, b)};
     const io::Node curvature = edge.at("curvature");
     if (curvature.is_array())
       return {Segment::quadratic(a, control(curvature, a, b), b)}; // specifications before 2023
     const std::string type = curvature.at("type").string();
     const io::Node params = curvature.at("params");
-    if (type == "quadratic") return {Segment::quadratic(a, control(params.at(0), a, b), b)};
+    if (type == "quadratic")
+      return {Segment::quadratic(a, control(params.at(0), a, b), b)};
     if (type == "cubic")
       return {Segment::cubic(a, control(params.at(0), a, b), control(params.at(1), a, b), b)};
     if (type == "circle") {
@@ -72,7 +75,8 @@ bool faces_body(const Panel& panel) {
 /// The same loop walked the other way; edge k of n comes to be edge n - 1 - k.
 void reverse_sense(std::vector<PanelEdge>& loop) {
   std::reverse(loop.begin(), loop.end());
-  for (PanelEdge& e : loop) e.path = reversed(e.path);
+  for (PanelEdge& e : loop)
+    e.path = reversed(e.path);
 }
 
 } // namespace
@@ -122,12 +126,12 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
       const io::Node edge = edges.at(k), ends = edge.at("endpoints");
       const int a = ends.at(0).integer(), b = ends.at(1).integer();
       for (int v : {a, b})
-        if (v < 0 || v >= static_cast<int>(points.size()))
+        if (v < 0 || v >= std::ssize(points))
           ends.fail("json.bad-index"_id, "panel " + name + " has no vertex " + std::to_string(v));
-      if (k == 0) first = a;
+      if (k == 0)
+        first = a;
       else if (a != last) {
-        const double gap =
-            (points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(last)]).norm();
+        const double gap = (points[a] - points[last]).norm();
         edge.fail("pattern.outline-open"_id,
                   "the outline of panel " + name + " is open: edge " + std::to_string(k) +
                       " starts " + centimetres(gap) + " from where edge " + std::to_string(k - 1) +
@@ -136,12 +140,10 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
       }
       last = b;
       loop.push_back({edge.string("label", "") + (edge.has("label") ? "." : "") + std::to_string(k),
-                      reader.path(edge, points[static_cast<std::size_t>(a)],
-                                  points[static_cast<std::size_t>(b)])});
+                      reader.path(edge, points[a], points[b])});
     }
     if (last != first) {
-      const double gap =
-          (points[static_cast<std::size_t>(first)] - points[static_cast<std::size_t>(last)]).norm();
+      const double gap = (points[first] - points[last]).norm();
       edges.fail("pattern.outline-open"_id,
                  "the outline of panel " + name + " is open: its last edge ends " +
                      centimetres(gap) + " from where edge 0 starts",
@@ -176,11 +178,11 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
         if (panel < 0)
           item.fail("pattern.no-panel"_id, "stitch " + std::to_string(k) + " refers to panel '" +
                                                panel_name + "', which does not exist");
-        if (edge < 0 || edge >= pattern.panels[static_cast<std::size_t>(panel)].n_edges())
-          item.fail("pattern.no-edge"_id,
-                    "stitch " + std::to_string(k) + " refers to edge " + std::to_string(edge) +
-                        " of panel " + panel_name + ", which has " +
-                        std::to_string(pattern.panels[static_cast<std::size_t>(panel)].n_edges()));
+        if (edge < 0 || edge >= pattern.panels[panel].n_edges())
+          item.fail("pattern.no-edge"_id, "stitch " + std::to_string(k) + " refers to edge " +
+                                              std::to_string(edge) + " of panel " + panel_name +
+                                              ", which has " +
+                                              std::to_string(pattern.panels[panel].n_edges()));
         if (item.has("right_wrong"))
           same_direction = same_direction || item.boolean("right_wrong", false);
         auto& runs = seam.a.empty() ? seam.a : seam.b;
@@ -193,12 +195,14 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
       if (seam.b.empty())
         stitch.fail("pattern.stitch-edges"_id,
                     "stitch " + std::to_string(k) + " joins fewer than two edges");
-      const auto& pa = pattern.panels[static_cast<std::size_t>(seam.a[0].panel)];
-      const auto& pb = pattern.panels[static_cast<std::size_t>(seam.b[0].panel)];
+      const auto& pa = pattern.panels[seam.a[0].panel];
+      const auto& pb = pattern.panels[seam.b[0].panel];
       seam.name = pa.name + "." + pa.edge(seam.a[0].edge).name + "-" + pb.name + "." +
                   pb.edge(seam.b[0].edge).name;
-      if (!same_direction) std::swap(seam.b[0].from, seam.b[0].to);
-      if (seam.a[0].panel == seam.b[0].panel) seam.kind = "dart";
+      if (!same_direction)
+        std::swap(seam.b[0].from, seam.b[0].to);
+      if (seam.a[0].panel == seam.b[0].panel)
+        seam.kind = "dart";
       pattern.seams.push_back(std::move(seam));
     }
   }

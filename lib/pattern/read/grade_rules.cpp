@@ -24,7 +24,8 @@ std::vector<std::string> split_words(const std::string& text) {
   std::vector<std::string> out;
   std::string word;
   for (char c : text + " ") {
-    if (c != ' ' && c != '\t' && c != '\r' && c != ',' && c != ';') word += c;
+    if (c != ' ' && c != '\t' && c != '\r' && c != ',' && c != ';')
+      word += c;
     else if (!word.empty()) {
       out.push_back(word);
       word.clear();
@@ -50,7 +51,8 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
     throw input_error("grading.malformed"_id, file, "line " + std::to_string(line), fact, next);
   };
   const auto finish = [&] {
-    if (number_of_rule == 0) return;
+    if (number_of_rule == 0)
+      return;
     if (numbers.size() != 2 * rules.sizes.size())
       fail(first_line,
            "rule " + std::to_string(number_of_rule) + " has " + std::to_string(numbers.size()) +
@@ -84,10 +86,14 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
       const std::string word = upper_case(words[0]);
       unit = word == "CM" ? units::CM : units::MM;
       for (const char* inches : {"ENGL", "INCH", "IMPERIAL"})
-        if (word.rfind(inches, 0) == 0) unit = units::INCH;
-    } else if (key == "SIZE LIST") rules.sizes = words;
-    else if (key == "SAMPLE SIZE" && !words.empty()) sample = words[0];
-    else if (key == "GRADE RULE TABLE" && !words.empty()) rules.table = words[0];
+        if (word.rfind(inches, 0) == 0)
+          unit = units::INCH;
+    } else if (key == "SIZE LIST")
+      rules.sizes = words;
+    else if (key == "SAMPLE SIZE" && !words.empty())
+      sample = words[0];
+    else if (key == "GRADE RULE TABLE" && !words.empty())
+      rules.table = words[0];
     else if (key == "RULE") {
       finish();
       if (words.size() < 2 || upper_case(words[0]) != "DELTA")
@@ -101,8 +107,10 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
       for (std::size_t k = 2; k < words.size(); ++k)
         add_number(words[k]); // PolyPattern writes them on the line of their rule
     } else if (key.empty() && number_of_rule > 0) {
-      if (words.size() == 1 && upper_case(words[0]) == "END") break;
-      for (const std::string& word : words) add_number(word);
+      if (words.size() == 1 && upper_case(words[0]) == "END")
+        break;
+      for (const std::string& word : words)
+        add_number(word);
     }
   }
   finish();
@@ -114,7 +122,7 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
     throw input_error("grading.malformed"_id, file, "SAMPLE SIZE",
                       "'" + sample + "' is not in the size list", "name one of the sizes");
   for (const auto& [number, moves] : rules.moves)
-    if (const double off = moves[static_cast<std::size_t>(rules.sample)].norm(); off > 1e-6)
+    if (const double off = moves[rules.sample].norm(); off > 1e-6)
       throw input_error("grading.moves-sample"_id, file, "rule " + std::to_string(number),
                         "moves the sample size by " + sloper::centimetres(off, 2),
                         "count the moves from the sample size, which itself stays");
@@ -126,16 +134,17 @@ void grade_ring(std::vector<Vec2>& ring, const std::vector<int>& rule, const Gra
   const std::size_t n = ring.size();
   std::vector<std::size_t> graded;
   for (std::size_t k = 0; k < n; ++k)
-    if (rule[k] > 0 && rules.moves.count(rule[k])) graded.push_back(k);
-  if (graded.empty()) return;
-  const auto move = [&](std::size_t k) {
-    return rules.moves.at(rule[k])[static_cast<std::size_t>(size)];
-  };
+    if (rule[k] > 0 && rules.moves.count(rule[k]))
+      graded.push_back(k);
+  if (graded.empty())
+    return;
+  const auto move = [&](std::size_t k) { return rules.moves.at(rule[k])[size]; };
   std::vector<Vec2> out = ring;
   for (std::size_t g = 0; g < graded.size(); ++g) {
     const std::size_t from = graded[g], to = g + 1 < graded.size() ? graded[g + 1] : graded[0] + n;
     double total = 0;
-    for (std::size_t k = from; k < to; ++k) total += (ring[(k + 1) % n] - ring[k % n]).norm();
+    for (std::size_t k = from; k < to; ++k)
+      total += (ring[(k + 1) % n] - ring[k % n]).norm();
     const Vec2 a = move(from), b = move(to % n);
     double along = 0;
     for (std::size_t k = from; k < to; ++k) {

@@ -6,25 +6,33 @@ namespace sloper::pattern {
 
 double unit_of(const io::Node& node) {
   const std::string unit = node.string();
-  if (unit == "m") return 1;
-  if (unit == "cm") return 0.01;
-  if (unit == "mm") return 0.001;
-  if (unit == "in") return 0.0254;
+  if (unit == "m")
+    return 1;
+  if (unit == "cm")
+    return 0.01;
+  if (unit == "mm")
+    return 0.001;
+  if (unit == "in")
+    return 0.0254;
   node.fail("json.unknown-word"_id, "unknown unit '" + unit + "'", "known are m, cm, mm and in");
 }
 
 /// Members of a path item with its letter: two for each point; 0 of a letter that is not known.
 static std::size_t size_of_item(const std::string& letter) {
-  if (letter == "M" || letter == "L") return 3;
-  if (letter == "Q") return 5;  // two points
-  if (letter == "C") return 7;  // three points
+  if (letter == "M" || letter == "L")
+    return 3;
+  if (letter == "Q")
+    return 5; // two points
+  if (letter == "C")
+    return 7;                   // three points
   return letter == "A" ? 6 : 0; // radius, two flags, a point
 }
 
 Path read_path(const io::Node& node, double unit, const Vec2* start) {
   Path path;
   std::optional<Vec2> at;
-  if (start) at = *start;
+  if (start)
+    at = *start;
   for (std::size_t k = 0; k < node.size(); ++k) {
     const io::Node item = node.at(k);
     if (!item.is_array() || item.size() == 0)
@@ -42,17 +50,23 @@ Path read_path(const io::Node& node, double unit, const Vec2* start) {
     };
     const Vec2 to = point(count - 2);
     if (what == "M") {
-      if (k != 0) item.fail("pattern.bad-path"_id, "M is allowed only at the start of a path");
+      if (k != 0)
+        item.fail("pattern.bad-path"_id, "M is allowed only at the start of a path");
       at = to;
       continue;
     }
-    if (!at) item.fail("pattern.bad-path"_id, "the path has no start", "begin with [\"M\", x, y]");
-    if (what == "L") path.push_back(Segment::straight(*at, to));
-    if (what == "Q") path.push_back(Segment::quadratic(*at, point(1), to));
-    if (what == "C") path.push_back(Segment::cubic(*at, point(1), point(3), to));
+    if (!at)
+      item.fail("pattern.bad-path"_id, "the path has no start", "begin with [\"M\", x, y]");
+    if (what == "L")
+      path.push_back(Segment::straight(*at, to));
+    if (what == "Q")
+      path.push_back(Segment::quadratic(*at, point(1), to));
+    if (what == "C")
+      path.push_back(Segment::cubic(*at, point(1), point(3), to));
     if (what == "A") {
       const double radius = item.at(1).number() * unit;
-      if (!(radius > 0)) item.fail("pattern.bad-path"_id, "the radius is not positive");
+      if (!(radius > 0))
+        item.fail("pattern.bad-path"_id, "the radius is not positive");
       const Path arc =
           circle_arc(*at, to, radius, item.at(2).number() != 0, item.at(3).number() != 0);
       path.insert(path.end(), arc.begin(), arc.end());
@@ -97,19 +111,23 @@ std::vector<PanelEdge> read_loop(const io::Node& node, const char* key, double u
 int panel_named(const Pattern& pattern, const io::Node& node) {
   const std::string name = node.string();
   const int k = pattern.find_panel(name);
-  if (k >= 0) return k;
+  if (k >= 0)
+    return k;
   std::vector<std::string> names;
-  for (const Panel& p : pattern.panels) names.push_back(p.name);
+  for (const Panel& p : pattern.panels)
+    names.push_back(p.name);
   node.fail("pattern.no-panel"_id, "there is no panel '" + name + "'" + did_you_mean(name, names));
 }
 
 int edge_named(const Panel& panel, const io::Node& node) {
   const std::string name = node.string();
   const int k = panel.find_edge(name);
-  if (k >= 0) return k;
+  if (k >= 0)
+    return k;
   std::vector<std::string> names;
   for (const auto& loop : panel.loops)
-    for (const PanelEdge& e : loop) names.push_back(e.name);
+    for (const PanelEdge& e : loop)
+      names.push_back(e.name);
   node.fail("pattern.no-edge"_id,
             "panel " + panel.name + " has no edge '" + name + "'" + did_you_mean(name, names));
 }

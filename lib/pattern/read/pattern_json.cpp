@@ -19,7 +19,8 @@ std::vector<PanelEdge> mirrored(const std::vector<PanelEdge>& loop) {
   for (auto it = loop.rbegin(); it != loop.rend(); ++it) {
     PanelEdge e{it->name, reversed(it->path)};
     for (Segment& s : e.path)
-      for (Vec2& p : s.p) p.x() = -p.x();
+      for (Vec2& p : s.p)
+        p.x() = -p.x();
     out.push_back(std::move(e));
   }
   return out;
@@ -30,7 +31,8 @@ void read_fold(const io::Node& node, Panel& panel) {
   const int fold = edge_named(panel, node.at("edge"));
   std::string suffix[2] = {"", "_mirror"};
   if (node.has("suffix"))
-    for (std::size_t k = 0; k < 2; ++k) suffix[k] = node.at("suffix").at(k).string();
+    for (std::size_t k = 0; k < 2; ++k)
+      suffix[k] = node.at("suffix").at(k).string();
   if (!unfold(panel, fold, suffix[0], suffix[1]))
     node.fail("pattern.fold-not-straight"_id, "panel " + panel.name + ": the fold edge '" +
                                                   panel.edge(fold).name +
@@ -45,10 +47,14 @@ void read_place(const io::Node& node, Panel& panel, double unit) {
   if (std::find(std::begin(parts), std::end(parts), panel.hint.part) == std::end(parts))
     node.fail("json.unknown-word"_id, "unknown part '" + panel.hint.part + "'",
               "known are torso, neck, head, arm_l, arm_r, leg_l, leg_r and lower_body");
-  if (node.has("theta_deg")) panel.hint.theta = units::radians(node.at("theta_deg").number());
-  if (node.has("radius")) panel.hint.radius = node.at("radius").number() * unit;
-  if (node.has("anchor")) panel.hint.anchor = node.at("anchor").vec2() * unit;
-  if (node.has("height")) panel.hint.height = node.at("height").number() * unit;
+  if (node.has("theta_deg"))
+    panel.hint.theta = units::radians(node.at("theta_deg").number());
+  if (node.has("radius"))
+    panel.hint.radius = node.at("radius").number() * unit;
+  if (node.has("anchor"))
+    panel.hint.anchor = node.at("anchor").vec2() * unit;
+  if (node.has("height"))
+    panel.hint.height = node.at("height").number() * unit;
   if (node.has("rigid")) {
     const io::Node rigid = node.at("rigid");
     if (rigid.size() != 12)
@@ -69,9 +75,11 @@ void read_place(const io::Node& node, Panel& panel, double unit) {
 int line_named(const Panel& panel, const io::Node& node) {
   const std::string name = node.string();
   std::vector<std::string> names;
-  for (const InnerLine& line : panel.lines) names.push_back(line.name);
+  for (const InnerLine& line : panel.lines)
+    names.push_back(line.name);
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<int>(found - names.begin());
+  if (found != names.end())
+    return static_cast<int>(found - names.begin());
   node.fail("pattern.no-line"_id,
             "panel " + panel.name + " has no line '" + name + "'" + did_you_mean(name, names));
 }
@@ -92,7 +100,8 @@ void read_lines(const io::Node& node, Panel& panel, double unit) {
       item.at("factor").fail("json.out-of-range"_id,
                              "factor " + decimals(line.factor, 3) + " is out of range",
                              "give 0.05 to 20");
-    if (!(line.width > 0)) item.at("width").fail("pattern.too-small"_id, "the tape has no width");
+    if (!(line.width > 0))
+      item.at("width").fail("pattern.too-small"_id, "the tape has no width");
     if (!(length(line.path) > 1e-3))
       item.fail("pattern.too-small"_id, "line '" + line.name + "' of panel " + panel.name + " is " +
                                             centimetres(length(line.path)) + " long");
@@ -112,8 +121,7 @@ void read_pleats(const io::Node& node, Panel& panel) {
     Pleat pleat;
     pleat.fold = line_named(panel, item.at("fold"));
     pleat.target = line_named(panel, item.at("target"));
-    pleat.name = item.string("name", panel.name + "-" +
-                                         panel.lines[static_cast<std::size_t>(pleat.fold)].name);
+    pleat.name = item.string("name", panel.name + "-" + panel.lines[pleat.fold].name);
     if (pleat.fold == pleat.target)
       item.fail("pleat.malformed"_id, "pleat " + pleat.name + " folds a line onto itself");
     const io::Node edges = item.at("edges");
@@ -138,13 +146,14 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
     if (node.has("outline") || node.has("holes") || node.has("fold") || node.has("lines"))
       node.fail("pattern.mirror-and-outline"_id,
                 "panel " + panel.name + " has both mirror_of and an outline");
-    const Panel& other =
-        pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("mirror_of")))];
-    for (const auto& loop : other.loops) panel.loops.push_back(mirrored(loop));
+    const Panel& other = pattern.panels[panel_named(pattern, node.at("mirror_of"))];
+    for (const auto& loop : other.loops)
+      panel.loops.push_back(mirrored(loop));
     panel.lines = other.lines;
     for (InnerLine& line : panel.lines) {
       for (Segment& s : line.path)
-        for (Vec2& p : s.p) p.x() = -p.x();
+        for (Vec2& p : s.p)
+          p.x() = -p.x();
       keep_side(line);
     }
     panel.grain = Vec2(-other.grain.x(), other.grain.y());
@@ -158,10 +167,13 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
         node.at("holes").at(k);
         panel.loops.push_back(read_loop(node.at("holes").at(k), "edge", unit, panel.name));
       }
-    if (node.has("lines")) read_lines(node.at("lines"), panel, unit);
-    if (node.has("fold")) read_fold(node.at("fold"), panel);
+    if (node.has("lines"))
+      read_lines(node.at("lines"), panel, unit);
+    if (node.has("fold"))
+      read_fold(node.at("fold"), panel);
   }
-  if (node.has("pleats")) read_pleats(node.at("pleats"), panel);
+  if (node.has("pleats"))
+    read_pleats(node.at("pleats"), panel);
   if (node.has("grain")) {
     panel.grain = node.at("grain").vec2();
     if (!(panel.grain.norm() > 0))
@@ -173,7 +185,8 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
   panel.material = node.string("material", panel.material);
   panel.layer = node.integer("layer", panel.layer);
   panel.label = node.string("label", panel.label);
-  if (node.has("place")) read_place(node.at("place"), panel, unit);
+  if (node.has("place"))
+    read_place(node.at("place"), panel, unit);
   if (node.has("notches"))
     for (std::size_t k = 0; k < node.at("notches").size(); ++k) {
       const io::Node notch = node.at("notches").at(k);
@@ -201,7 +214,7 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern, bool ag
     item.allow_only({"panel", "edge", "from", "to"});
     Run run;
     run.panel = panel_named(pattern, item.at("panel"));
-    run.edge = edge_named(pattern.panels[static_cast<std::size_t>(run.panel)], item.at("edge"));
+    run.edge = edge_named(pattern.panels[run.panel], item.at("edge"));
     run.from = item.number("from", against ? 1 : 0);
     run.to = item.number("to", against ? 0 : 1);
     for (double f : {run.from, run.to})
@@ -210,7 +223,8 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern, bool ag
                   "a run extends from " + decimals(run.from, 3) + " to " + decimals(run.to, 3) +
                       " of its edge",
                   "give fractions from 0 to 1");
-    if (run.from == run.to) item.fail("pattern.too-small"_id, "a run has no length");
+    if (run.from == run.to)
+      item.fail("pattern.too-small"_id, "a run has no length");
     side.push_back(run);
   }
   return side;
@@ -236,7 +250,8 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file) {
   const io::Node panels = root.at("panels");
   if (!panels.is_array() || panels.size() == 0)
     panels.fail("pattern.no-panels"_id, "there are no panels");
-  for (std::size_t k = 0; k < panels.size(); ++k) read_panel(panels.at(k), pattern, unit);
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    read_panel(panels.at(k), pattern, unit);
   if (root.has("seams"))
     for (std::size_t k = 0; k < root.at("seams").size(); ++k) {
       const io::Node node = root.at("seams").at(k);
@@ -245,7 +260,8 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file) {
       seam.name = node.string("name", "seam " + std::to_string(k));
       seam.kind = node.string("kind", "seam");
       seam.ease = node.string("ease", "");
-      if (node.has("open")) seam.open = node.at("open").boolean();
+      if (node.has("open"))
+        seam.open = node.at("open").boolean();
       if (seam.kind != "seam" && seam.kind != "dart" && seam.kind != "gather" &&
           seam.kind != "closure")
         node.at("kind").fail("json.unknown-word"_id, "unknown kind '" + seam.kind + "'",

@@ -97,7 +97,8 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
         throw input_error("pattern.too-small"_id, file, panel.name,
                           "the outline encloses only " + decimals(std::abs(area) * 1e4, 4) + " cm2",
                           "give the panel an area");
-      if ((area > 0) == (l == 0)) continue;
+      if ((area > 0) == (l == 0))
+        continue;
       if (l > 0)
         throw input_error("pattern.hole-direction"_id, file, panel.name,
                           "hole " + std::to_string(l) + " is drawn counter-clockwise",
@@ -107,7 +108,8 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
            panel.name + ": drawn clockwise, so it is taken as seen from inside and turned over"});
       for (std::size_t h = 1; h < panel.loops.size(); ++h) {
         std::vector<Path> hole;
-        for (const PanelEdge& e : panel.loops[h]) hole.push_back(e.path);
+        for (const PanelEdge& e : panel.loops[h])
+          hole.push_back(e.path);
         if (signed_area(hole) < 0)
           throw input_error("pattern.hole-direction"_id, file, panel.name,
                             "hole " + std::to_string(h) +
@@ -118,14 +120,17 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
       for (auto& loop : panel.loops)
         for (PanelEdge& e : loop)
           for (Segment& s : e.path)
-            for (Vec2& p : s.p) p.x() = -p.x();
+            for (Vec2& p : s.p)
+              p.x() = -p.x();
       for (InnerLine& line : panel.lines) {
         for (Segment& s : line.path)
-          for (Vec2& p : s.p) p.x() = -p.x();
+          for (Vec2& p : s.p)
+            p.x() = -p.x();
         keep_side(line);
       }
       panel.grain.x() = -panel.grain.x();
-      if (panel.hint.anchor) panel.hint.anchor->x() *= -1;
+      if (panel.hint.anchor)
+        panel.hint.anchor->x() *= -1;
       if (panel.hint.rigid) {
         Mat4 turn = Mat4::Identity();
         turn(0, 0) = turn(2, 2) = -1;
@@ -160,7 +165,8 @@ std::set<std::string> sewn_panels(const io::Json& sidecar, const std::string& pa
   for (std::size_t k = 0; k < seams.size(); ++k)
     for (const char* side : {"a", "b"}) {
       const io::Node runs = seams.at(k).at(side);
-      for (std::size_t r = 0; r < runs.size(); ++r) names.insert(runs.at(r).at("panel").string());
+      for (std::size_t r = 0; r < runs.size(); ++r)
+        names.insert(runs.at(r).at("panel").string());
     }
   return names;
 }
@@ -170,14 +176,18 @@ Pattern read_by_format(const io::Json& json, const std::string& path) {
       json.is_object() && json.contains("format") && json["format"].is_string()
           ? json["format"].get<std::string>()
           : "";
-  if (format == "pattern") return read_pattern_json(json, path);
-  if (format == "sewing-spec") return read_sewing_spec(json, path);
+  if (format == "pattern")
+    return read_pattern_json(json, path);
+  if (format == "sewing-spec")
+    return read_sewing_spec(json, path);
   if (format == "panels" || format == "garment")
     throw input_error("pattern.already-meshed"_id, path, "/format",
                       "is a \"" + format + "\" document, which is already meshed",
                       "give the pattern that it was made from");
-  if (json.is_object() && json.contains("pattern")) return read_garmentcode(json, path);
-  if (json.is_object() && json.contains("PatternList")) return read_clo_json(json, path);
+  if (json.is_object() && json.contains("pattern"))
+    return read_garmentcode(json, path);
+  if (json.is_object() && json.contains("PatternList"))
+    return read_clo_json(json, path);
   throw input_error("pattern.unknown-format"_id, path, "/format",
                     "'" + format + "' is not a known pattern format", READABLE);
 }
@@ -191,7 +201,8 @@ Pattern read_pattern(const std::string& path, const PatternChoice& choice) {
   if (first == std::string::npos)
     throw input_error("file.empty"_id, path, "", "the file is empty", "give a pattern");
   io::Json sidecar;
-  if (!choice.sewing.empty()) sidecar = read_sidecar(choice.sewing);
+  if (!choice.sewing.empty())
+    sidecar = read_sidecar(choice.sewing);
   if (text[first] == '{' || text[first] == '[') {
     pattern = read_by_format(io::parse_json(text, path), path);
     if (!choice.size.empty() || !choice.rules.empty())
@@ -206,10 +217,13 @@ Pattern read_pattern(const std::string& path, const PatternChoice& choice) {
                       READABLE);
   } else {
     DxfChoice dxf{choice.size, nullptr, choice.unit, choice.allowance, choice.pieces, {}};
-    if (!choice.sewing.empty()) dxf.sewn = sewn_panels(sidecar, choice.sewing);
+    if (!choice.sewing.empty())
+      dxf.sewn = sewn_panels(sidecar, choice.sewing);
     std::optional<GradeRules> rules;
-    if (!choice.rules.empty()) rules = parse_grade_rules(io::read_file(choice.rules), choice.rules);
-    if (rules) dxf.rules = &*rules;
+    if (!choice.rules.empty())
+      rules = parse_grade_rules(io::read_file(choice.rules), choice.rules);
+    if (rules)
+      dxf.rules = &*rules;
     pattern = read_dxf(text, path, dxf);
   }
   if (!choice.sewing.empty()) {

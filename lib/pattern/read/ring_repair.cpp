@@ -18,7 +18,9 @@ const double LEAVES = units::radians(30);
 constexpr double SYMMETRIC = 0.003; // m
 constexpr double ON_FOLD = 1e-3;    // m
 
-double wedge(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double wedge(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 std::array<Vec2, 2> bounds_of(const PointRing& ring) {
   std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
@@ -40,10 +42,13 @@ bool turns_back(const PointRing& ring, std::size_t k) {
   const auto at = [&](std::size_t steps) { return ring[(k + n + steps) % n]; };
   const Vec2 in = at(n - 1) - at(0), out = at(1) - at(0);
   const double depth = std::min(in.norm(), out.norm());
-  if (!(depth < DEEPEST_SLIT)) return false;
-  if (depth < 1e-9) return true;
+  if (!(depth < DEEPEST_SLIT))
+    return false;
+  if (depth < 1e-9)
+    return true;
   const Vec2 leaves = in.norm() < out.norm() ? Vec2(at(n - 2) - at(n - 1)) : Vec2(at(2) - at(1));
-  if (angle_between(in.norm() < out.norm() ? in : out, leaves) < LEAVES) return false;
+  if (angle_between(in.norm() < out.norm() ? in : out, leaves) < LEAVES)
+    return false;
   return angle_between(in, out) < (depth < OVERSHOOT ? OVERSHOOT_ANGLE : FOLDS_BACK);
 }
 
@@ -51,7 +56,8 @@ bool turns_back(const PointRing& ring, std::size_t k) {
 /// line.
 Vec2 mitre(const Vec2& p, const Vec2& along, const Vec2& q, const Vec2& other) {
   const double sine = wedge(along, other);
-  if (std::abs(sine) < 1e-6) return 0.5 * (p + q);
+  if (std::abs(sine) < 1e-6)
+    return 0.5 * (p + q);
   return p + wedge(q - p, other) / sine * along;
 }
 
@@ -67,12 +73,15 @@ std::vector<Vec2> take_slits_off(PointRing& ring) {
     }
     const double in = (ring[before] - ring[k]).norm(), out = (ring[after] - ring[k]).norm();
     const Vec2 base = in < out ? ring[before] : ring[after];
-    if (std::min(in, out) > OVERSHOOT) slits.push_back(base);
+    if (std::min(in, out) > OVERSHOOT)
+      slits.push_back(base);
     const bool same = (ring[before] - ring[after]).norm() < SAME_POINT;
     std::vector<std::size_t> drop = {k};
-    if (same) drop.push_back(after);
+    if (same)
+      drop.push_back(after);
     std::sort(drop.rbegin(), drop.rend());
-    for (std::size_t i : drop) ring.erase(ring.begin() + static_cast<long>(i));
+    for (std::size_t i : drop)
+      ring.erase(ring.begin() + static_cast<long>(i));
     k = k > 2 ? k - 2 : 0; // what is left may turn back in its turn
   }
   return slits;
@@ -96,7 +105,8 @@ PointRing inset(const PointRing& ring, const std::vector<double>& by,
     for (std::size_t i = 0; i < m; ++i) {
       const std::size_t a = sides[(i + m - 1) % m], b = sides[i];
       Vec2 p = mitre(start[a], along[a], start[b], along[b]);
-      if (std::abs(wedge(along[a], along[b])) < 1e-6) p = 0.5 * (end(a) + start[b]);
+      if (std::abs(wedge(along[a], along[b])) < 1e-6)
+        p = 0.5 * (end(a) + start[b]);
       out.push_back(p);
     }
     std::size_t worst = m;
@@ -106,7 +116,8 @@ PointRing inset(const PointRing& ring, const std::vector<double>& by,
         most = length;
         worst = i;
       }
-    if (worst == m || m <= 3) break;
+    if (worst == m || m <= 3)
+      break;
     sides.erase(sides.begin() + static_cast<long>(worst));
   }
   std::vector<std::size_t> moved;
@@ -114,7 +125,8 @@ PointRing inset(const PointRing& ring, const std::vector<double>& by,
     const auto next = std::lower_bound(sides.begin(), sides.end(), corner);
     const std::size_t index =
         next == sides.end() ? 0 : static_cast<std::size_t>(next - sides.begin());
-    if (std::find(moved.begin(), moved.end(), index) == moved.end()) moved.push_back(index);
+    if (std::find(moved.begin(), moved.end(), index) == moved.end())
+      moved.push_back(index);
   }
   std::sort(moved.begin(), moved.end());
   corners = std::move(moved);
@@ -125,12 +137,14 @@ PointRing without_allowance(const PointRing& ring, const DxfBlock& block, double
                             double allowance, std::vector<std::size_t>& corners) {
   std::vector<double> by(ring.size(), allowance);
   for (const DxfLine& line : block.lines) {
-    if (line.layer != 6 || line.points.size() < 2) continue;
+    if (line.layer != 6 || line.points.size() < 2)
+      continue;
     const Vec2 from = line.points.front() * unit,
                along = (line.points.back() * unit - from).normalized();
     const auto on_fold = [&](const Vec2& p) { return std::abs(wedge(along, p - from)) < ON_FOLD; };
     for (std::size_t k = 0; k < ring.size(); ++k)
-      if (on_fold(ring[k]) && on_fold(ring[(k + 1) % ring.size()])) by[k] = 0;
+      if (on_fold(ring[k]) && on_fold(ring[(k + 1) % ring.size()]))
+        by[k] = 0;
   }
   return inset(ring, by, corners);
 }
@@ -149,7 +163,8 @@ bool is_symmetric(const PointRing& ring) {
       image[axis] = 2 * middle[axis] - p[axis];
       return distance_to_ring(ring, image) < SYMMETRIC;
     };
-    if (std::all_of(ring.begin(), ring.end(), on_ring)) return true;
+    if (std::all_of(ring.begin(), ring.end(), on_ring))
+      return true;
   }
   return false;
 }

@@ -14,7 +14,7 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
     const io::Node item = node.at(k);
     Run run;
     run.panel = panel_named(pattern, item.at("panel"));
-    run.edge = edge_named(pattern.panels[static_cast<std::size_t>(run.panel)], item.at("run"));
+    run.edge = edge_named(pattern.panels[run.panel], item.at("run"));
     if (item.has("range")) {
       run.from = item.at("range").at(0).number();
       run.to = item.at("range").at(1).number();
@@ -23,13 +23,15 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
     if (direction != "+" && direction != "-")
       item.at("dir").fail("json.unknown-word"_id, "the direction is '" + direction + "'",
                           "give + or -");
-    if (direction == "-") std::swap(run.from, run.to);
+    if (direction == "-")
+      std::swap(run.from, run.to);
     if (run.from < 0 || run.from > 1 || run.to < 0 || run.to > 1 || run.from == run.to)
       item.fail("json.out-of-range"_id, "the range is empty or outside of the run",
                 "give two fractions from 0 to 1");
     side.push_back(run);
   }
-  if (side.empty()) node.fail("pattern.seam-side-empty"_id, "a side of the seam is empty");
+  if (side.empty())
+    node.fail("pattern.seam-side-empty"_id, "a side of the seam is empty");
   return side;
 }
 
@@ -46,7 +48,8 @@ static void read_seams(Pattern& pattern, const io::Node& seams) {
     seam.a = read_side(node.at("a"), pattern);
     seam.b = read_side(node.at("b"), pattern);
     pattern.seams.push_back(std::move(seam));
-    if (node.has("and")) read_seams(pattern, node.at("and")); // its mirror image
+    if (node.has("and"))
+      read_seams(pattern, node.at("and")); // its mirror image
   }
 }
 
@@ -75,7 +78,8 @@ Pattern read_sewing_spec(const io::Json& json, const std::string& file) {
         panel.loops.push_back(read_loop(node.at("holes").at(h), "run", unit, panel.name));
     if (node.has("grain")) {
       const Vec2 along = node.at("grain").at(1).vec2() - node.at("grain").at(0).vec2();
-      if (along.norm() > 0) panel.grain = along.normalized();
+      if (along.norm() > 0)
+        panel.grain = along.normalized();
     }
     if (node.has("place")) {
       const io::Node place = node.at("place");
@@ -92,14 +96,16 @@ Pattern read_sewing_spec(const io::Json& json, const std::string& file) {
       } else if (!frame.empty()) {
         panel.hint.part = frame;
         panel.hint.theta = units::radians(place.number("theta_deg", 0));
-        if (place.has("radius")) panel.hint.radius = place.at("radius").number() * unit;
+        if (place.has("radius"))
+          panel.hint.radius = place.at("radius").number() * unit;
         panel.hint.anchor = place.at("anchor").vec2() * unit;
         panel.hint.height = place.at("height").number() * unit;
       }
     }
     pattern.panels.push_back(std::move(panel));
   }
-  if (root.has("seams")) read_sewing_seams(pattern, json, file);
+  if (root.has("seams"))
+    read_sewing_seams(pattern, json, file);
   return pattern;
 }
 

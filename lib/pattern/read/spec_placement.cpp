@@ -22,8 +22,10 @@ CurveStyle curve_style(const io::Node& panels) {
   for (const std::string& name : panels.keys()) {
     const io::Node edges = panels.at(name).at("edges");
     for (std::size_t k = 0; k < edges.size(); ++k) {
-      if (!edges.at(k).has("curvature") || edges.at(k).at("curvature").is_null()) continue;
-      if (!edges.at(k).at("curvature").is_array()) return CurveStyle::TYPED;
+      if (!edges.at(k).has("curvature") || edges.at(k).at("curvature").is_null())
+        continue;
+      if (!edges.at(k).at("curvature").is_array())
+        return CurveStyle::TYPED;
       style = CurveStyle::LIST;
     }
   }
@@ -36,7 +38,8 @@ std::optional<std::array<Vec3, 2>> edge_ends(const io::Node& panels, const io::N
                                              EulerOrder order) {
   const std::string name = item.at("panel").string();
   const int index = item.at("edge").integer();
-  if (!panels.has(name) || index < 0) return std::nullopt;
+  if (!panels.has(name) || index < 0)
+    return std::nullopt;
   const io::Node panel = panels.at(name);
   const std::size_t edge = static_cast<std::size_t>(index);
   if (!panel.has("translation") || !panel.has("rotation") || edge >= panel.at("edges").size())
@@ -62,10 +65,13 @@ double seam_gaps(const io::Node& source, EulerOrder order) {
     const io::Node stitch = stitches.at(k);
     std::vector<std::array<Vec3, 2>> sides;
     for (std::size_t i = 0; i < stitch.size(); ++i) {
-      if (stitch.at(i).is_string()) continue;
-      if (const auto ends = edge_ends(panels, stitch.at(i), order)) sides.push_back(*ends);
+      if (stitch.at(i).is_string())
+        continue;
+      if (const auto ends = edge_ends(panels, stitch.at(i), order))
+        sides.push_back(*ends);
     }
-    if (sides.size() != 2) continue;
+    if (sides.size() != 2)
+      continue;
     const auto& [a, b] = std::tie(sides[0], sides[1]);
     sum += std::min((a[0] - b[0]).norm() + (a[1] - b[1]).norm(),
                     (a[0] - b[1]).norm() + (a[1] - b[0]).norm());
@@ -77,12 +83,16 @@ double seam_gaps(const io::Node& source, EulerOrder order) {
 
 EulerOrder euler_order(const io::Node& source) {
   const CurveStyle style = curve_style(source.at("panels"));
-  if (style == CurveStyle::TYPED) return EulerOrder::XYZ;
+  if (style == CurveStyle::TYPED)
+    return EulerOrder::XYZ;
   const EulerOrder usual = style == CurveStyle::LIST ? EulerOrder::ZYX : EulerOrder::XYZ;
-  if (!source.has("stitches")) return usual;
+  if (!source.has("stitches"))
+    return usual;
   const double xyz = seam_gaps(source, EulerOrder::XYZ), zyx = seam_gaps(source, EulerOrder::ZYX);
-  if (std::min(xyz, zyx) >= SAME * std::max(xyz, zyx)) return EulerOrder::XYZ;
-  if (std::min(xyz, zyx) > ALIKE * std::max(xyz, zyx)) return usual;
+  if (std::min(xyz, zyx) >= SAME * std::max(xyz, zyx))
+    return EulerOrder::XYZ;
+  if (std::min(xyz, zyx) > ALIKE * std::max(xyz, zyx))
+    return usual;
   return xyz < zyx ? EulerOrder::XYZ : EulerOrder::ZYX;
 }
 
@@ -102,9 +112,11 @@ bool tells_placement(const io::Node& panels) {
   std::optional<Mat4> first;
   for (const std::string& name : names) {
     const io::Node panel = panels.at(name);
-    if (!panel.has("translation") || !panel.has("rotation")) return true;
+    if (!panel.has("translation") || !panel.has("rotation"))
+      return true;
     const Mat4 placed = spec_placement(panel, 1, EulerOrder::XYZ);
-    if (!first) first = placed;
+    if (!first)
+      first = placed;
     const Vec3 normal = first->col(2).head<3>();
     const double off = normal.dot((placed.col(3) - first->col(3)).head<3>());
     if ((placed.col(2).head<3>() - normal).norm() > ONE_PLANE || std::abs(off) > ONE_PLANE)
@@ -128,7 +140,7 @@ struct SeamOffset {
 
 std::vector<SeamOffset> seam_offsets(const Pattern& pattern) {
   const auto middle = [&](const Run& run) {
-    const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
+    const Panel& panel = pattern.panels[run.panel];
     const Path& path = panel.edge(run.edge).path;
     const Vec2 p = 0.5 * (path.front().p[0] + path.back().p[3]);
     return Vec3((*panel.hint.rigid * Eigen::Vector4d(p.x(), p.y(), 0, 1)).head<3>());
@@ -154,13 +166,15 @@ std::vector<Vec3> offsets_to_seams(const std::vector<SeamOffset>& offsets, std::
     length[o.b] += o.length;
   }
   for (std::size_t k = 0; k < n; ++k)
-    if (length[k] > 0) sum[k] /= length[k];
+    if (length[k] > 0)
+      sum[k] /= length[k];
   return sum;
 }
 
 bool is_far(const Vec3& offset) {
   for (long k = 0; k < 3; ++k)
-    if (std::abs(offset[k]) > FAR_OFF[k]) return true;
+    if (std::abs(offset[k]) > FAR_OFF[k])
+      return true;
   return false;
 }
 
@@ -173,31 +187,39 @@ void mend_translation(Pattern& pattern) {
     return;
   const std::vector<SeamOffset> offsets = seam_offsets(pattern);
   const std::vector<Vec3> mean_gap = offsets_to_seams(offsets, n);
-  if (std::none_of(mean_gap.begin(), mean_gap.end(), is_far)) return;
+  if (std::none_of(mean_gap.begin(), mean_gap.end(), is_far))
+    return;
   std::size_t best = n;
   double least = 1e300;
   for (std::size_t k = 0; k < n; ++k) {
-    if (!is_far(mean_gap[k])) continue;
+    if (!is_far(mean_gap[k]))
+      continue;
     std::vector<SeamOffset> moved = offsets;
     for (SeamOffset& o : moved) {
-      if (o.a == k) o.gap -= mean_gap[k];
-      if (o.b == k) o.gap += mean_gap[k];
+      if (o.a == k)
+        o.gap -= mean_gap[k];
+      if (o.b == k)
+        o.gap += mean_gap[k];
     }
     const std::vector<Vec3> left = offsets_to_seams(moved, n);
-    if (std::any_of(left.begin(), left.end(), is_far)) continue;
+    if (std::any_of(left.begin(), left.end(), is_far))
+      continue;
     double sum = 0;
-    for (const SeamOffset& o : moved) sum += o.length * o.gap.norm();
+    for (const SeamOffset& o : moved)
+      sum += o.length * o.gap.norm();
     if (sum < least) {
       least = sum;
       best = k;
     }
   }
-  if (best == n) return;
+  if (best == n)
+    return;
   Panel& panel = pattern.panels[best];
   // Front and back start apart, whatever their seams say.
   Vec3 move = mean_gap[best];
   for (long k = 0; k < 3; ++k)
-    if (std::abs(move[k]) <= FAR_OFF[k]) move[k] = 0;
+    if (std::abs(move[k]) <= FAR_OFF[k])
+      move[k] = 0;
   panel.hint.rigid->topRightCorner<3, 1>() += move;
   pattern.findings.push_back({"pattern.placement-by-seams"_id,
                               panel.name + ": its translation puts it " + centimetres(move.norm()) +

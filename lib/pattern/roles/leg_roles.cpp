@@ -13,7 +13,8 @@ public:
       : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles) {}
 
   void run() {
-    if (!one_piece()) four_pieces();
+    if (!one_piece())
+      four_pieces();
     ends();
   }
 
@@ -22,9 +23,7 @@ private:
   static constexpr double LOWER_END = 0.4; // of a leg's height: cuffs are sewn on below
 
   std::size_t count() const { return m_roles.size(); }
-  Vec2 at(std::size_t k, int vertex) const {
-    return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)];
-  }
+  Vec2 at(std::size_t k, int vertex) const { return m_roles[k].turn * m_mesh.pattern[vertex]; }
   std::array<Vec2, 2> bounds(std::size_t k) const {
     std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
     for (int v : m_mesh.panels[k].outline) {
@@ -51,11 +50,13 @@ private:
         tubes.push_back(k);
     double tallest = 0; // a waistband and cuffs are tubes as well
     const auto height = [&](std::size_t k) { return bounds(k)[1].y() - bounds(k)[0].y(); };
-    for (std::size_t k : tubes) tallest = std::max(tallest, height(k));
+    for (std::size_t k : tubes)
+      tallest = std::max(tallest, height(k));
     tubes.erase(std::remove_if(tubes.begin(), tubes.end(),
                                [&](std::size_t k) { return height(k) < 0.5 * tallest; }),
                 tubes.end());
-    if (tubes.size() != 2 || !upright(tubes[0], tubes[1])) return false;
+    if (tubes.size() != 2 || !upright(tubes[0], tubes[1]))
+      return false;
     double back[2];
     for (std::size_t i : {0, 1}) {
       const std::size_t k = tubes[i];
@@ -112,13 +113,16 @@ private:
   void four_pieces() {
     std::vector<std::size_t> tubes;
     for (std::size_t k = 0; k < count(); ++k) {
-      if (m_roles[k].region != Region::TRUNK || m_roles[k].side == Side::RING) continue;
+      if (m_roles[k].region != Region::TRUNK || m_roles[k].side == Side::RING)
+        continue;
       bool tube = says_legs(words_of(m_pattern, k));
       for (int q : m_graph.neighbours(static_cast<int>(k))) {
-        if (m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side) continue;
+        if (m_roles[q].side == m_roles[k].side)
+          continue;
         tube = tube || long_seams(k, static_cast<std::size_t>(q)) >= 2;
       }
-      if (tube) tubes.push_back(k);
+      if (tube)
+        tubes.push_back(k);
     }
     // A waistband over a skirt is two tubes as well, one above the other: legs stand side by side,
     // joined by upright seams.
@@ -129,16 +133,18 @@ private:
           }))
         beside.push_back(k);
     tubes = std::move(beside);
-    if (tubes.size() < 4) return;
+    if (tubes.size() < 4)
+      return;
     for (std::size_t k : tubes) {
       // The crotch is where the other leg's panel of the same side is sewn on; the left leg has it
       // on its inner side.
       double inner = 0;
       for (int q : m_graph.neighbours(static_cast<int>(k)))
         if (std::find(tubes.begin(), tubes.end(), static_cast<std::size_t>(q)) != tubes.end() &&
-            m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side)
+            m_roles[q].side == m_roles[k].side)
           for (const auto& seam : between(k, static_cast<std::size_t>(q)))
-            for (const auto& s : seam) inner += at(k, s[0]).x() - middle_u(k);
+            for (const auto& s : seam)
+              inner += at(k, s[0]).x() - middle_u(k);
       const bool front = m_roles[k].side == Side::FRONT;
       m_roles[k].part = (inner < 0) == front ? "leg_l" : "leg_r";
     }
@@ -149,22 +155,27 @@ private:
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t k = 0; k < count(); ++k) {
-        if (m_roles[k].region != Region::TRUNK || is_leg(m_roles[k])) continue;
+        if (m_roles[k].region != Region::TRUNK || is_leg(m_roles[k]))
+          continue;
         std::string leg;
         bool end = true;
         for (int q : m_graph.neighbours(static_cast<int>(k))) {
           const std::size_t o = static_cast<std::size_t>(q);
-          if (m_roles[o].region != Region::TRUNK) end = false;
-          if (!is_leg(m_roles[o])) continue;
+          if (m_roles[o].region != Region::TRUNK)
+            end = false;
+          if (!is_leg(m_roles[o]))
+            continue;
           end = end && (leg.empty() || leg == m_roles[o].part);
           leg = m_roles[o].part;
-          if (upright(o, k)) continue; // the cuff's other half
+          if (upright(o, k))
+            continue; // the cuff's other half
           const auto b = bounds(o);
           for (const auto& seam : between(o, k))
             for (const auto& s : seam)
               end = end && at(o, s[0]).y() < b[0].y() + LOWER_END * (b[1].y() - b[0].y());
         }
-        if (leg.empty() || !end) continue;
+        if (leg.empty() || !end)
+          continue;
         m_roles[k].part = leg;
         changed = true;
       }
@@ -184,18 +195,18 @@ bool at_their_sides(const PanelMesh& mesh, const std::vector<PanelRole>& roles, 
   double out[2];
   for (const std::size_t end : {0, 1}) {
     const std::size_t panel = end == 0 ? k : q;
-    const auto at = [&](int vertex) {
-      return Vec2(roles[panel].turn * mesh.pattern[static_cast<std::size_t>(vertex)]);
-    };
+    const auto at = [&](int vertex) { return Vec2(roles[panel].turn * mesh.pattern[vertex]); };
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
     for (int v : mesh.panels[panel].outline) {
       low = low.cwiseMin(at(v));
       high = high.cwiseMax(at(v));
     }
-    for (const auto& stitch : seam) sum += at(stitch[end]);
+    for (const auto& stitch : seam)
+      sum += at(stitch[end]);
     const Vec2 off =
         (sum / static_cast<double>(seam.size()) - 0.5 * (low + high)).cwiseQuotient(high - low);
-    if (!(std::abs(off.x()) > std::abs(off.y()))) return false;
+    if (!(std::abs(off.x()) > std::abs(off.y())))
+      return false;
     out[end] = off.x();
   }
   return out[0] * out[1] < 0 || roles[k].side != roles[q].side; // one's left is the other's right
@@ -206,7 +217,7 @@ bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
   for (const auto& seam : graph.between(static_cast<int>(k), static_cast<int>(q))) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const auto& s : seam) {
-      const Vec2 p = roles[k].turn * mesh.pattern[static_cast<std::size_t>(s[0])];
+      const Vec2 p = roles[k].turn * mesh.pattern[s[0]];
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }

@@ -47,6 +47,8 @@ struct PanelRole {
 };
 
 /// Whether the panel goes around a leg of trousers.
-inline bool is_leg(const PanelRole& role) { return role.part == "leg_l" || role.part == "leg_r"; }
+inline bool is_leg(const PanelRole& role) {
+  return role.part == "leg_l" || role.part == "leg_r";
+}
 
 } // namespace sloper::pattern

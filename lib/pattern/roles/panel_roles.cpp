@@ -23,16 +23,21 @@ public:
   std::vector<PanelRole> run() {
     const std::size_t n = m_roles.size();
     m_known.assign(n, false);
-    for (std::size_t k = 0; k < n; ++k) m_words.push_back(words_of(m_pattern, k));
-    for (std::size_t k = 0; k < n; ++k) by_hint(k);
     for (std::size_t k = 0; k < n; ++k)
-      if (!m_known[k]) by_name(k);
+      m_words.push_back(words_of(m_pattern, k));
+    for (std::size_t k = 0; k < n; ++k)
+      by_hint(k);
+    for (std::size_t k = 0; k < n; ++k)
+      if (!m_known[k])
+        by_name(k);
     by_shape();
     necks_by_height();
     face_each_other();
     turn_trunk_panels(m_pattern, m_mesh, m_graph, m_roles);
-    for (std::size_t k = 0; k < n; ++k) arm_side(k);
-    for (std::size_t k = 0; k < n; ++k) rings(k);
+    for (std::size_t k = 0; k < n; ++k)
+      arm_side(k);
+    for (std::size_t k = 0; k < n; ++k)
+      rings(k);
     ring_of_gores();
     one_ring_all_ring();
     turn_arm_panels(m_pattern, m_mesh, m_graph, m_roles);
@@ -45,8 +50,8 @@ private:
     const PanelInfo& p = m_mesh.panels[k];
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (int v : p.outline) {
-      low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]);
-      high = high.cwiseMax(m_mesh.pattern[static_cast<std::size_t>(v)]);
+      low = low.cwiseMin(m_mesh.pattern[v]);
+      high = high.cwiseMax(m_mesh.pattern[v]);
     }
     return 0.5 * (low + high);
   }
@@ -54,7 +59,7 @@ private:
     const PanelInfo& p = m_mesh.panels[k];
     double low = 1e300, high = -1e300;
     for (int v : p.outline) {
-      const double u = (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(v)]).x();
+      const double u = (m_roles[k].turn * m_mesh.pattern[v]).x();
       low = std::min(low, u);
       high = std::max(high, u);
     }
@@ -65,8 +70,10 @@ private:
     theta = std::remainder(theta, 2 * units::PI);
     role.theta = theta;
     role.side = Side::RING;
-    if (std::abs(theta) <= units::radians(FRONT_WITHIN_DEG)) role.side = Side::FRONT;
-    else if (std::abs(theta) >= units::radians(BACK_BEYOND_DEG)) role.side = Side::BACK;
+    if (std::abs(theta) <= units::radians(FRONT_WITHIN_DEG))
+      role.side = Side::FRONT;
+    else if (std::abs(theta) >= units::radians(BACK_BEYOND_DEG))
+      role.side = Side::BACK;
   }
 
   void by_hint(std::size_t k) {
@@ -77,9 +84,12 @@ private:
       m_known[k] = true;
       role.part = hint.part;
       role.region = Region::TRUNK;
-      if (hint.part == "arm_l") role.region = Region::ARM_L;
-      else if (hint.part == "arm_r") role.region = Region::ARM_R;
-      else if (hint.part == "neck" || hint.part == "head") role.region = Region::NECK;
+      if (hint.part == "arm_l")
+        role.region = Region::ARM_L;
+      else if (hint.part == "arm_r")
+        role.region = Region::ARM_R;
+      else if (hint.part == "neck" || hint.part == "head")
+        role.region = Region::NECK;
       if (role.region == Region::NECK) {
         role.side = Side::RING;
         role.theta = hint.theta.value_or(units::PI);
@@ -101,7 +111,8 @@ private:
         role.dv = *hint.height - hint.anchor->y();
       return;
     }
-    if (!hint.rigid) return;
+    if (!hint.rigid)
+      return;
     m_known[k] = true;
     const Mat3 r = hint.rigid->topLeftCorner<3, 3>();
     const Vec3 normal = r.col(2);
@@ -113,26 +124,32 @@ private:
         !legs &&
         (says_sleeve(words) || cuff_of_sleeve(k) ||
          (panel.label == "arm" && !any_begins(words, {"torso", "bodice", "ftorso", "btorso"})));
-    if (arm) role.region = center.x() > 0 ? Region::ARM_L : Region::ARM_R;
-    else if (!legs && says_neck(words)) role.region = Region::NECK;
-    else role.part = legs ? "lower_body" : "torso";
+    if (arm)
+      role.region = center.x() > 0 ? Region::ARM_L : Region::ARM_R;
+    else if (!legs && says_neck(words))
+      role.region = Region::NECK;
+    else
+      role.part = legs ? "lower_body" : "torso";
     if (std::hypot(normal.x(), normal.z()) < 0.3) { // drawn lying: names decide
       role.side = says_back(words) ? Side::BACK : Side::FRONT;
       return;
     }
     side_from_theta(role, std::atan2(normal.x(), normal.z()));
-    if (role.region != Region::TRUNK && role.region != Region::NECK) return;
+    if (role.region != Region::TRUNK && role.region != Region::NECK)
+      return;
     const Vec3 u_axis = Vec3::UnitY().cross(normal).normalized();
     const double angle = std::atan2(r.col(0).y(), r.col(0).dot(u_axis));
     role.turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-    if (role.region == Region::NECK) return around_neck(role);
+    if (role.region == Region::NECK)
+      return around_neck(role);
     role.dv = center.y() - (role.turn * m).y();
     if (role.side != Side::RING)
       role.du = (role.side == Side::BACK ? -center.x() : center.x()) - (role.turn * m).x();
   }
 
   static void around_neck(PanelRole& role) {
-    if (role.side == Side::FRONT) role.theta = 0;
+    if (role.side == Side::FRONT)
+      role.theta = 0;
     role.side = Side::RING;
     role.du.reset();
     role.dv.reset();
@@ -152,8 +169,9 @@ private:
       high = std::max(high, turned(k, v).y());
     }
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
-      const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
-      if (other.region != Region::TRUNK || other.side == m_roles[k].side) continue;
+      const PanelRole& other = m_roles[q];
+      if (other.region != Region::TRUNK || other.side == m_roles[k].side)
+        continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
         const Vec2 a = turned(k, seam.front()[0]), b = turned(k, seam.back()[0]);
         if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) &&
@@ -163,9 +181,7 @@ private:
     }
     return level > REMNANT * width(k);
   }
-  Vec2 turned(std::size_t k, int vertex) const {
-    return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)];
-  }
+  Vec2 turned(std::size_t k, int vertex) const { return m_roles[k].turn * m_mesh.pattern[vertex]; }
 
   /// Hinted panels without a word for it that stand above all that they are sewn to, near the
   /// middle: hoods, collars.
@@ -173,7 +189,7 @@ private:
     const auto range = [&](std::size_t k) { // of the height of its hint
       Vec2 y(1e300, -1e300);
       for (int v : m_mesh.panels[k].outline) {
-        const Vec2& p = m_mesh.pattern[static_cast<std::size_t>(v)];
+        const Vec2& p = m_mesh.pattern[v];
         const double h =
             (*m_pattern.panels[k].hint.rigid * Eigen::Vector4d(p.x(), p.y(), 0, 1)).y();
         y = Vec2(std::min(y.x(), h), std::max(y.y(), h));
@@ -191,13 +207,15 @@ private:
       bool above = std::abs(x) < 0.2, trunk = false;
       for (int q : m_graph.neighbours(static_cast<int>(k))) {
         const std::size_t o = static_cast<std::size_t>(q);
-        if (m_roles[o].region != Region::TRUNK || !m_pattern.panels[o].hint.rigid) continue;
+        if (m_roles[o].region != Region::TRUNK || !m_pattern.panels[o].hint.rigid)
+          continue;
         const Vec2 other = range(o);
         const bool lower = 0.5 * (own.x() + own.y()) > other.y() + 0.01 && has_shoulder(o);
         trunk = trunk || lower;
         above = above && (lower || std::abs(own.x() - other.x()) < 0.05); // or is its like
       }
-      if (above && trunk) found.push_back(k);
+      if (above && trunk)
+        found.push_back(k);
     }
     for (std::size_t k : found) {
       m_roles[k].region = Region::NECK;
@@ -217,7 +235,8 @@ private:
       role.region = Region::NECK;
       role.side = Side::RING;
       role.theta = units::PI;
-    } else role.part = legs || says_cuff(words) ? "lower_body" : "torso";
+    } else
+      role.part = legs || says_cuff(words) ? "lower_body" : "torso";
     role.theta = role.region == Region::NECK || role.side == Side::BACK ? units::PI : 0;
   }
 
@@ -227,8 +246,10 @@ private:
     constexpr double SURE = 0.8; // on 60 fresh specifications 695 of 695 parts were right at that
     std::vector<std::size_t> unnamed;
     for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (!m_known[k] && !says_anything(m_words[k])) unnamed.push_back(k);
-    if (unnamed.empty() || m_pattern.seams.empty()) return;
+      if (!m_known[k] && !says_anything(m_words[k]))
+        unnamed.push_back(k);
+    if (unnamed.empty() || m_pattern.seams.empty())
+      return;
     const std::vector<ShapeRole> shapes = shape_roles(m_pattern);
     double faces = 0; // for and against the shapes' front and back
     for (std::size_t k = 0; k < m_roles.size(); ++k)
@@ -240,23 +261,28 @@ private:
         m_roles[k].region = Region::ARM_R; // or the left: what it is sewn to tells
         continue;
       }
-      if (shape.sure < SURE) continue;
+      if (shape.sure < SURE)
+        continue;
       PanelRole& role = m_roles[k];
       const bool back = shape.back != (faces < 0);
       const int hand = shape.hand * (faces < 0 ? -1 : 1);
       const std::string part = SHAPE_PART_NAMES[shape.part];
-      if (part == "arm" && hand == 0) continue;
+      if (part == "arm" && hand == 0)
+        continue;
       role.by_shape = true;
       role.part.clear();
       role.side = back ? Side::BACK : Side::FRONT;
       role.theta = back ? units::PI : 0;
-      if (part == "arm") role.region = hand > 0 ? Region::ARM_L : Region::ARM_R;
+      if (part == "arm")
+        role.region = hand > 0 ? Region::ARM_L : Region::ARM_R;
       else if (part == "neck") {
         role.region = Region::NECK;
         role.side = Side::RING;
         role.theta = units::PI;
-      } else if (part == "leg" && hand != 0) role.part = hand > 0 ? "leg_l" : "leg_r";
-      else role.part = part == "torso" ? "torso" : "lower_body";
+      } else if (part == "leg" && hand != 0)
+        role.part = hand > 0 ? "leg_l" : "leg_r";
+      else
+        role.part = part == "torso" ? "torso" : "lower_body";
     }
   }
 
@@ -266,23 +292,23 @@ private:
     const int p = static_cast<int>(k);
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (int v : m_mesh.panels[k].outline) {
-      low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]);
-      high = high.cwiseMax(m_mesh.pattern[static_cast<std::size_t>(v)]);
+      low = low.cwiseMin(m_mesh.pattern[v]);
+      high = high.cwiseMax(m_mesh.pattern[v]);
     }
     const double size = (high - low).norm();
     bool tube = false;
     for (const auto& seam : m_graph.between(p, p)) {
       double apart = 0;
       for (const auto& s : seam)
-        apart += (m_mesh.pattern[static_cast<std::size_t>(s[0])] -
-                  m_mesh.pattern[static_cast<std::size_t>(s[1])])
-                     .norm();
+        apart += (m_mesh.pattern[s[0]] - m_mesh.pattern[s[1]]).norm();
       tube = tube || apart > ACROSS * size * static_cast<double>(seam.size());
     }
     int hangs_on = 0;
     for (int q : m_graph.neighbours(p)) {
-      if (q == p) continue;
-      if (area(k) > SMALLER * area(static_cast<std::size_t>(q))) return false;
+      if (q == p)
+        continue;
+      if (area(k) > SMALLER * area(static_cast<std::size_t>(q)))
+        return false;
       ++hangs_on;
     }
     return tube && hangs_on >= 2;
@@ -300,8 +326,10 @@ private:
         double apart = 0;
         const auto seams = m_graph.between(static_cast<int>(p), static_cast<int>(q));
         for (const auto& a : seams)
-          for (const auto& b : seams) apart = std::max(apart, (middle_of(a) - middle_of(b)).norm());
-        if (apart < ACROSS * width(p)) continue;
+          for (const auto& b : seams)
+            apart = std::max(apart, (middle_of(a) - middle_of(b)).norm());
+        if (apart < ACROSS * width(p))
+          continue;
         const std::size_t back = area(p) > area(q) ? p : q;
         m_roles[back].side = Side::BACK;
         m_roles[back].theta = units::PI;
@@ -315,15 +343,16 @@ private:
   /// Of a seam, on the panel that comes first in its stitches.
   Vec2 middle_of(const std::vector<std::array<int, 2>>& seam) const {
     Vec2 sum = Vec2::Zero();
-    for (const auto& s : seam) sum += m_mesh.pattern[static_cast<std::size_t>(s[0])];
+    for (const auto& s : seam)
+      sum += m_mesh.pattern[s[0]];
     return sum / static_cast<double>(seam.size());
   }
   double area(std::size_t k) const {
     const auto& outline = m_mesh.panels[k].outline;
     double sum = 0;
     for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2 &a = m_mesh.pattern[static_cast<std::size_t>(outline[i])],
-                 &b = m_mesh.pattern[static_cast<std::size_t>(outline[(i + 1) % outline.size()])];
+      const Vec2 &a = m_mesh.pattern[outline[i]],
+                 &b = m_mesh.pattern[outline[(i + 1) % outline.size()]];
       sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
     }
     return std::abs(sum);
@@ -331,7 +360,8 @@ private:
 
   /// Cuffs belong to sleeves, unless they are sewn to other panels only: to trousers.
   bool cuff_of_sleeve(std::size_t k) const {
-    if (!says_cuff(m_words[k])) return false;
+    if (!says_cuff(m_words[k]))
+      return false;
     bool other = false;
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const std::size_t o = static_cast<std::size_t>(q);
@@ -346,7 +376,8 @@ private:
   /// outside, the left armhole of a front is on its +u side, that of a back on its -u side.
   void arm_side(std::size_t k) {
     PanelRole& role = m_roles[k];
-    if (role.region != Region::ARM_L && role.region != Region::ARM_R) return;
+    if (role.region != Region::ARM_L && role.region != Region::ARM_R)
+      return;
     if (!m_pattern.panels[k].hint.part.empty() || m_pattern.panels[k].hint.rigid) {
       role.part = role.region == Region::ARM_L ? "arm_l" : "arm_r";
       return;
@@ -354,14 +385,14 @@ private:
     if (!says_left(m_words[k]) && !says_right(m_words[k]) && !role.by_shape) {
       double vote = 0;
       for (int q : m_graph.neighbours(static_cast<int>(k))) {
-        const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
-        if (other.region != Region::TRUNK) continue;
+        const PanelRole& other = m_roles[q];
+        if (other.region != Region::TRUNK)
+          continue;
         for (const auto& seam : m_graph.between(static_cast<int>(k), q))
           for (const auto& s : seam)
-            vote += (other.turn * (m_mesh.pattern[static_cast<std::size_t>(s[1])] -
-                                   middle(static_cast<std::size_t>(q))))
-                        .x() *
-                    (other.side == Side::BACK ? -1 : 1);
+            vote +=
+                (other.turn * (m_mesh.pattern[s[1]] - middle(static_cast<std::size_t>(q)))).x() *
+                (other.side == Side::BACK ? -1 : 1);
       }
       role.region = vote >= 0 ? Region::ARM_L : Region::ARM_R;
     }
@@ -374,20 +405,20 @@ private:
     for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(k))) {
       double apart = 0;
       for (const auto& s : seam)
-        apart += (m_mesh.pattern[static_cast<std::size_t>(s[0])] -
-                  m_mesh.pattern[static_cast<std::size_t>(s[1])])
-                     .norm();
+        apart += (m_mesh.pattern[s[0]] - m_mesh.pattern[s[1]]).norm();
       apart /= static_cast<double>(seam.size());
-      if (apart < 0.5 * std::max(width(k), 1e-3)) continue; // a dart
+      if (apart < 0.5 * std::max(width(k), 1e-3))
+        continue; // a dart
       role.side = Side::RING;
-      if (role.region == Region::ARM_L || role.region == Region::ARM_R) role.theta = 0;
+      if (role.region == Region::ARM_L || role.region == Region::ARM_R)
+        role.theta = 0;
     }
     const bool arm = role.region == Region::ARM_L || role.region == Region::ARM_R;
     if (arm && role.side != Side::RING &&
         !m_pattern.panels[k].hint.rigid) { // one piece, unless a partner makes the tube
       bool partner = false;
       for (int q : m_graph.neighbours(static_cast<int>(k)))
-        partner = partner || (m_roles[static_cast<std::size_t>(q)].region == role.region &&
+        partner = partner || (m_roles[q].region == role.region &&
                               m_graph.between(static_cast<int>(k), q).size() >= 2);
       if (!partner) {
         role.side = Side::RING;
@@ -402,10 +433,12 @@ private:
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t k = 0; k < m_roles.size(); ++k) {
-        if (m_roles[k].region != Region::TRUNK || m_roles[k].side != Side::RING) continue;
-        if (m_graph.between(static_cast<int>(k), static_cast<int>(k)).size() > 0) continue;
+        if (m_roles[k].region != Region::TRUNK || m_roles[k].side != Side::RING)
+          continue;
+        if (m_graph.between(static_cast<int>(k), static_cast<int>(k)).size() > 0)
+          continue;
         for (int q : m_graph.neighbours(static_cast<int>(k))) {
-          PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+          PanelRole& other = m_roles[q];
           if (other.region != Region::TRUNK || other.side == Side::RING ||
               other.part != m_roles[k].part)
             continue;
@@ -454,15 +487,18 @@ private:
       beside[godets[g]].clear();
     }
     for (std::size_t first = 0; first < m_roles.size(); ++first) {
-      if (beside[first].size() != 2 || m_roles[first].side == Side::RING) continue;
+      if (beside[first].size() != 2 || m_roles[first].side == Side::RING)
+        continue;
       std::vector<std::size_t> row = {first, right_of(first, beside[first])};
       while (row.back() != first && row.size() <= m_roles.size() && beside[row.back()].size() == 2)
         row.push_back(beside[row.back()][0] == row[row.size() - 2] ? beside[row.back()][1]
                                                                    : beside[row.back()][0]);
-      if (row.size() < 4 || row.back() != first) continue;
+      if (row.size() < 4 || row.back() != first)
+        continue;
       row.pop_back();
       double around = 0, at = 0;
-      for (std::size_t k : row) around += width(k);
+      for (std::size_t k : row)
+        around += width(k);
       for (std::size_t k : row) { // u runs to the wearer's left, as theta does
         m_roles[k].side = Side::RING;
         m_roles[k].theta = std::remainder(
@@ -472,7 +508,8 @@ private:
     }
     for (std::size_t g = 0; g < godets.size(); ++g) {
       const PanelRole &a = m_roles[joined[g][0]], &b = m_roles[joined[g][1]];
-      if (a.side != Side::RING || b.side != Side::RING) continue;
+      if (a.side != Side::RING || b.side != Side::RING)
+        continue;
       m_roles[godets[g]].side = Side::RING;
       m_roles[godets[g]].theta =
           std::atan2(std::sin(a.theta) + std::sin(b.theta), std::cos(a.theta) + std::cos(b.theta));
@@ -486,7 +523,7 @@ private:
       double n = 0;
       for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(two[i])))
         for (const auto& s : seam) {
-          u[i] += (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])]).x();
+          u[i] += (m_roles[k].turn * m_mesh.pattern[s[0]]).x();
           ++n;
         }
       u[i] /= std::max(n, 1.0);

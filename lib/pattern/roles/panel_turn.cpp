@@ -45,7 +45,8 @@ public:
             best = k;
           }
       if (best < n) {
-        if (!stand_as_leg(best)) follow(best);
+        if (!stand_as_leg(best))
+          follow(best);
       } else {
         for (std::size_t k = 0; k < n; ++k)
           if (open(k))
@@ -53,8 +54,10 @@ public:
               most = size;
               best = k;
             }
-        if (best == n) break;
-        if (!stand_as_leg(best)) stand(best);
+        if (best == n)
+          break;
+        if (!stand_as_leg(best))
+          stand(best);
       }
       m_known[best] = true;
     }
@@ -68,7 +71,7 @@ public:
 
 private:
   bool open(std::size_t k) const { return !m_known[k] && m_roles[k].region == Region::TRUNK; }
-  const Vec2& at(int vertex) const { return m_mesh.pattern[static_cast<std::size_t>(vertex)]; }
+  const Vec2& at(int vertex) const { return m_mesh.pattern[vertex]; }
 
   double area(std::size_t k) const {
     double sum = 0;
@@ -83,7 +86,8 @@ private:
   template<class Visit> void seams_to_known(std::size_t k, Visit visit) const {
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const std::size_t o = static_cast<std::size_t>(q);
-      if (!m_known[o] || m_roles[o].region != Region::TRUNK) continue;
+      if (!m_known[o] || m_roles[o].region != Region::TRUNK)
+        continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
         const bool at_sides = at_their_sides(m_mesh, m_roles, k, o, seam);
         for (std::size_t i = 0; i + 1 < seam.size(); ++i)
@@ -107,9 +111,11 @@ private:
         units::degrees(std::atan2(grain.x(), grain.y())); // of the grain, clockwise from up
     const double off = std::remainder(lean, 45);
     double first = 0;
-    if (std::abs(off) > SNAP) first = std::remainder(lean, 90);
+    if (std::abs(off) > SNAP)
+      first = std::remainder(lean, 90);
     std::vector<Turn> out;
-    for (double quarter : {0.0, 90.0, -90.0, 180.0}) out.push_back(rotation(first + quarter));
+    for (double quarter : {0.0, 90.0, -90.0, 180.0})
+      out.push_back(rotation(first + quarter));
     return out;
   }
 
@@ -128,7 +134,8 @@ private:
     seams_to_known(k, [&](std::size_t o, const Vec2& own, const Vec2& other, bool at_sides) {
       const Vec2 b = m_roles[o].turn * other;
       const double length = std::sqrt(own.norm() * b.norm());
-      if (!(length > 0)) return;
+      if (!(length > 0))
+        return;
       total += length;
       const bool level = goes_level(b) && !at_sides,
                  ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING ||
@@ -143,8 +150,10 @@ private:
           along = std::max(along, a.dot(Vec2(-b.x(), b.y())) /
                                       length); // flared panels lean away from each other
         const bool either_way = level && !ring && !(known && side_known(o));
-        if (either_way) along = std::abs(along);
-        else if (over) along = -along;
+        if (either_way)
+          along = std::abs(along);
+        else if (over)
+          along = -along;
         score[t] += along;
       }
     });
@@ -174,11 +183,14 @@ private:
               sum += at(s[0]);
               ++count;
             }
-      if (count > 0) break;
+      if (count > 0)
+        break;
     }
-    if (count == 0) return false;
+    if (count == 0)
+      return false;
     Vec2 down = sum / count - 0.5 * (low + high);
-    if (turned_whole(m_pattern.panels[k])) down = -down;
+    if (turned_whole(m_pattern.panels[k]))
+      down = -down;
     const std::vector<Turn> turns = candidates(k);
     m_roles[k].turn =
         *std::min_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) {
@@ -192,7 +204,8 @@ private:
   /// no such seams, or nothing free and level at the other end that is wider.
   double shoulders_up(std::size_t k, const Turn& turn) const {
     constexpr double ZONE = 0.25; // of the panel's height
-    if (m_roles[k].part != "torso") return 0;
+    if (m_roles[k].part != "torso")
+      return 0;
     const auto& outline = m_mesh.panels[k].outline;
     double low = 1e300, high = -1e300;
     for (int v : outline) {
@@ -203,8 +216,10 @@ private:
     double seams = 0, hem = 0;
     for (int q : m_graph.neighbours(static_cast<int>(k)))
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
-        for (const auto& s : seam) sewn[s[0]] = true;
-        if (m_roles[static_cast<std::size_t>(q)].region != Region::TRUNK) continue;
+        for (const auto& s : seam)
+          sewn[s[0]] = true;
+        if (m_roles[q].region != Region::TRUNK)
+          continue;
         const Vec2 a = turn * at(seam.front()[0]), b = turn * at(seam.back()[0]);
         if (goes_level(b - a) && std::min(a.y(), b.y()) > high - ZONE * (high - low))
           seams += std::abs(b.x() - a.x());
@@ -230,9 +245,11 @@ private:
     }
     for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(k))) {
       double apart = 0;
-      for (const auto& s : seam) apart += (at(s[0]) - at(s[1])).norm();
+      for (const auto& s : seam)
+        apart += (at(s[0]) - at(s[1])).norm();
       apart /= static_cast<double>(seam.size());
-      if (apart > ACROSS * (high - low).norm()) return apart;
+      if (apart > ACROSS * (high - low).norm())
+        return apart;
     }
     return 0;
   }
@@ -241,9 +258,11 @@ private:
   /// crotch, at its upper end. False for others, and where it is drawn upright.
   bool stand_as_leg(std::size_t k) {
     constexpr double LOWEST_LEG = 0.3; // height over width: shorts have 0.5, waistbands 0.1
-    if (m_roles[k].part != "lower_body" && !is_leg(m_roles[k])) return false;
+    if (m_roles[k].part != "lower_body" && !is_leg(m_roles[k]))
+      return false;
     const std::vector<Turn> turns = candidates(k);
-    if (std::abs((turns[0] * m_pattern.panels[k].grain).y()) >= DRAWN_UPRIGHT) return false;
+    if (std::abs((turns[0] * m_pattern.panels[k].grain).y()) >= DRAWN_UPRIGHT)
+      return false;
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), up = Vec2::Zero();
     for (int v : m_mesh.panels[k].outline) {
       low = low.cwiseMin(at(v));
@@ -258,7 +277,8 @@ private:
             ++stitches;
           }
     const double apart = closes_on_itself(k);
-    if (stitches == 0 || !(apart > 0) || area(k) < LOWEST_LEG * apart * apart) return false;
+    if (stitches == 0 || !(apart > 0) || area(k) < LOWEST_LEG * apart * apart)
+      return false;
     m_roles[k].turn =
         *std::max_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) {
           return (a * up).y() < (b * up).y() - 1e-9;
@@ -282,7 +302,7 @@ private:
     std::vector<char> sewn(m_mesh.pattern.size(), 0);
     for (const MeshSeam& s : m_mesh.seams)
       for (std::size_t i = 0; i < s.a.size(); ++i)
-        sewn[static_cast<std::size_t>(s.a[i])] = sewn[static_cast<std::size_t>(s.b[i])] = 1;
+        sewn[s.a[i]] = sewn[s.b[i]] = 1;
     const auto& outline = m_mesh.panels[k].outline;
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
     double length = 0;
@@ -290,7 +310,8 @@ private:
       const int a = outline[i], b = outline[(i + 1) % outline.size()];
       low = low.cwiseMin(at(a));
       high = high.cwiseMax(at(a));
-      if (sewn[static_cast<std::size_t>(a)] && sewn[static_cast<std::size_t>(b)]) continue;
+      if (sewn[a] && sewn[b])
+        continue;
       const double l = (at(b) - at(a)).norm();
       sum += 0.5 * l * (at(a) + at(b));
       length += l;
@@ -325,7 +346,8 @@ public:
   void run() {
     count_steps();
     for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (is_arm(k)) turn(k);
+      if (is_arm(k))
+        turn(k);
   }
 
 private:
@@ -334,7 +356,7 @@ private:
   bool is_arm(std::size_t k) const {
     return m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R;
   }
-  const Vec2& at(int vertex) const { return m_mesh.pattern[static_cast<std::size_t>(vertex)]; }
+  const Vec2& at(int vertex) const { return m_mesh.pattern[vertex]; }
   Vec2 middle(std::size_t k) const {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (int v : m_mesh.panels[k].outline) {
@@ -355,7 +377,8 @@ private:
     for (std::size_t i = 0; i < front.size(); ++i) // it grows
       for (int q : m_graph.neighbours(static_cast<int>(front[i]))) {
         const std::size_t o = static_cast<std::size_t>(q);
-        if (m_steps[o] < FAR || !is_arm(o)) continue;
+        if (m_steps[o] < FAR || !is_arm(o))
+          continue;
         m_steps[o] = m_steps[front[i]] + 1;
         front.push_back(o);
       }
@@ -365,9 +388,11 @@ private:
   Vec2 way_in(std::size_t k) const {
     Vec2 sum = Vec2::Zero();
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
-      if (m_steps[static_cast<std::size_t>(q)] >= m_steps[k]) continue;
+      if (m_steps[q] >= m_steps[k])
+        continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q))
-        for (const auto& s : seam) sum += at(s[0]) - middle(k);
+        for (const auto& s : seam)
+          sum += at(s[0]) - middle(k);
     }
     return sum;
   }
@@ -378,7 +403,8 @@ private:
     std::vector<Vec2> directions;
     const auto add = [&](const std::vector<std::array<int, 2>>& seam, std::size_t side) {
       const Vec2 d = at(seam.back()[side]) - at(seam.front()[side]);
-      if (d.norm() > 1e-6) directions.push_back(d);
+      if (d.norm() > 1e-6)
+        directions.push_back(d);
     };
     for (const auto& seam : m_graph.between(p, p)) {
       add(seam, 0);
@@ -386,18 +412,23 @@ private:
     }
     for (int q : m_graph.neighbours(p)) {
       const auto seams = m_graph.between(p, q);
-      if (m_roles[static_cast<std::size_t>(q)].region == role.region && seams.size() >= 2)
-        for (const auto& seam : seams) add(seam, 0);
+      if (m_roles[q].region == role.region && seams.size() >= 2)
+        for (const auto& seam : seams)
+          add(seam, 0);
     }
     const Vec2 in = way_in(k);
     Vec2 up(0, 1);
     if (!directions.empty()) {
       const Vec2 guide = in.norm() > 1e-9 ? in : directions[0]; // sides of a flounce lean far out
       Vec2 sum = Vec2::Zero();
-      for (const Vec2& d : directions) sum += d.dot(guide) < 0 ? Vec2(-d) : d;
-      if (sum.norm() > 1e-6) up = sum.normalized();
-    } else if (m_pattern.panels[k].hint.rigid) up = Vec2(1, 0);
-    if (in.dot(up) < 0) up = -up;
+      for (const Vec2& d : directions)
+        sum += d.dot(guide) < 0 ? Vec2(-d) : d;
+      if (sum.norm() > 1e-6)
+        up = sum.normalized();
+    } else if (m_pattern.panels[k].hint.rigid)
+      up = Vec2(1, 0);
+    if (in.dot(up) < 0)
+      up = -up;
     role.turn << up.y(), -up.x(), up.x(), up.y(); // rows: u = up turned clockwise, v = up
   }
 

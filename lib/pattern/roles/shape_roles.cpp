@@ -23,7 +23,8 @@ using Parts = std::vector<std::array<double, SHAPE_PARTS>>;
 class Faces {
 public:
   explicit Faces(std::size_t n) : m_parent(n), m_turned(n, false) {
-    for (std::size_t k = 0; k < n; ++k) m_parent[k] = k;
+    for (std::size_t k = 0; k < n; ++k)
+      m_parent[k] = k;
   }
   std::pair<std::size_t, bool> root(std::size_t k) const {
     bool turned = false;
@@ -60,18 +61,21 @@ Parts look(const ShapeWitness& witness, const std::vector<SeamTrees>& trees, con
       x = std::exp(x - most);
       sum += x;
     }
-    for (double& x : out[k]) x /= sum;
+    for (double& x : out[k])
+      x /= sum;
   }
   return out;
 }
 
 /// Whether two whole pieces are sewn to each other at both of their sides: they face each other.
 bool go_around(const ShapeWitness& witness, std::size_t a, std::size_t b) {
-  if (!witness.symmetric(a) || !witness.symmetric(b)) return false;
+  if (!witness.symmetric(a) || !witness.symmetric(b))
+    return false;
   bool sides[2] = {false, false};
   for (const auto& l : witness.links()) {
     const bool these = (l.a == a && l.b == b) || (l.a == b && l.b == a);
-    if (!these || std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < ON_THE_SIDE) continue;
+    if (!these || std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < ON_THE_SIDE)
+      continue;
     sides[l.x_a > 0.5] = true;
   }
   return sides[0] && sides[1];
@@ -97,7 +101,8 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
                 std::vector<ShapeRole>& roles) {
   const std::size_t n = witness.count();
   std::vector<std::size_t> own;
-  for (const ShapeRole& role : roles) own.push_back(role.part);
+  for (const ShapeRole& role : roles)
+    own.push_back(role.part);
   std::vector<std::pair<double, std::size_t>> order;
   std::vector<double> same;
   for (const auto& l : witness.links()) {
@@ -105,8 +110,10 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
     const bool halves = l.middle && !witness.symmetric(l.a);
     const bool trunk = own[l.a] != ARM && own[l.a] != NECK && own[l.a] == own[l.b];
     double score = model.same_face(witness.link(l, own));
-    if (halves) score = SAME_FACE;
-    else if (trunk && go_around(witness, l.a, l.b)) score = -SAME_FACE;
+    if (halves)
+      score = SAME_FACE;
+    else if (trunk && go_around(witness, l.a, l.b))
+      score = -SAME_FACE;
     same.push_back(score);
     order.push_back({-std::abs(same.back()), same.size() - 1});
   }
@@ -132,13 +139,16 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
   // In the middle a half is sewn to the other one of its face, at the side to one of the other.
   std::vector<double> votes(n, 0), cast(n, 0);
   for (const auto& l : witness.links()) {
-    if (own[l.a] == 1 || own[l.a] != own[l.b]) continue;
+    if (own[l.a] == 1 || own[l.a] != own[l.b])
+      continue;
     const double weight_aside = roles[l.a].back == roles[l.b].back ? 3 : -1;
     const double weight = l.middle ? 10 : weight_aside;
-    if (!l.middle && std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < AT_THE_SIDE) continue;
+    if (!l.middle && std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < AT_THE_SIDE)
+      continue;
     votes[l.a] -= weight * l.length * hand(l.a, l.x_a);
     votes[l.b] -= weight * l.length * hand(l.b, l.x_b);
-    for (std::size_t k : {l.a, l.b}) cast[k] += std::abs(weight) * l.length;
+    for (std::size_t k : {l.a, l.b})
+      cast[k] += std::abs(weight) * l.length;
   }
   for (std::size_t k = 0; k < n; ++k)
     if (std::abs(votes[k]) > CLEAR_VOTE * cast[k] && !witness.symmetric(k))
@@ -148,7 +158,8 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
     for (const auto& l : witness.links())
       for (const bool turn : {false, true}) {
         const std::size_t a = turn ? l.b : l.a, b = turn ? l.a : l.b;
-        if (l.middle || roles[b].hand != 0) continue;
+        if (l.middle || roles[b].hand != 0)
+          continue;
         if (roles[a].hand != 0 && (own[b] == own[a] || own[b] == 1) && (own[b] != 3)) {
           roles[b].hand = roles[a].hand;
           changed = true;

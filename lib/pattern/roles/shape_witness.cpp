@@ -9,7 +9,8 @@ namespace {
 
 std::uint8_t step(double x, std::initializer_list<double> bounds) {
   int k = 0;
-  for (double b : bounds) k += x > b;
+  for (double b : bounds)
+    k += x > b;
   return static_cast<std::uint8_t>(k);
 }
 
@@ -27,11 +28,9 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
   for (const Panel& p : pattern.panels)
     side_of.emplace_back(static_cast<std::size_t>(p.n_edges()), -1);
   for (std::size_t k = 0; k < sides.size(); ++k)
-    side_of[static_cast<std::size_t>(sides[k].panel)][static_cast<std::size_t>(sides[k].first)] =
-        static_cast<int>(k);
+    side_of[sides[k].panel][sides[k].first] = static_cast<int>(k);
   const auto at = [&](const Run& run) {
-    return static_cast<std::size_t>(
-        side_of[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)]);
+    return static_cast<std::size_t>(side_of[run.panel][run.edge]);
   };
   std::vector<double> partner(sides.size(), 0); // log ratio of what a side is sewn to
   std::vector<char> sewn(sides.size(), 0);
@@ -40,12 +39,15 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
   std::vector<std::vector<std::size_t>> neighbours(n);
   for (const Seam& seam : pattern.seams) {
     for (const auto* runs : {&seam.a, &seam.b})
-      for (const Run& run : *runs) sewn[at(run)] = 1;
+      for (const Run& run : *runs)
+        sewn[at(run)] = 1;
     const std::size_t i = at(seam.a[0]), j = at(seam.b[0]);
     const double ratio = std::log(std::max(side_length(pattern, seam.a), 1e-6) /
                                   std::max(side_length(pattern, seam.b), 1e-6));
-    for (const Run& run : seam.a) partner[at(run)] = ratio;
-    for (const Run& run : seam.b) partner[at(run)] = -ratio;
+    for (const Run& run : seam.a)
+      partner[at(run)] = ratio;
+    for (const Run& run : seam.b)
+      partner[at(run)] = -ratio;
     const std::size_t p = static_cast<std::size_t>(seam.a[0].panel),
                       q = static_cast<std::size_t>(seam.b[0].panel);
     if (p == q) {
@@ -60,7 +62,8 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
     link.length = side_length(pattern, seam.a);
     link.x_a = sides[i].place.x();
     link.x_b = sides[j].place.x();
-    if (!pairs.look(i, j, link.evidence)) link.evidence = {};
+    if (!pairs.look(i, j, link.evidence))
+      link.evidence = {};
     link.middle = link.evidence[static_cast<std::size_t>(Clue::KINSHIP)] == 5;
     m_links.push_back(link);
   }
@@ -92,16 +95,23 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
            longer = 0, shorter = 0, darts = 0, upright_free = 0;
     for (std::size_t k = 0; k < sides.size(); ++k) {
       const SeamSide& s = sides[k];
-      if (static_cast<std::size_t>(s.panel) != p) continue;
+      if (static_cast<std::size_t>(s.panel) != p)
+        continue;
       around += s.length;
-      if (!sewn[k]) free += s.length;
-      if (s.bulge > 0.03) hollow += s.length;
-      if (s.bulge < -0.03) round += s.length;
+      if (!sewn[k])
+        free += s.length;
+      if (s.bulge > 0.03)
+        hollow += s.length;
+      if (s.bulge < -0.03)
+        round += s.length;
       const double across = std::abs(s.chord.x());
       if (across > std::abs(s.chord.y())) {
-        if (s.place.y() < 0.25 && !sewn[k]) bottom += across;
-        if (s.place.y() > 0.6) (sewn[k] ? top_sewn : top) += across;
-      } else if (!sewn[k]) upright_free += s.length;
+        if (s.place.y() < 0.25 && !sewn[k])
+          bottom += across;
+        if (s.place.y() > 0.6)
+          (sewn[k] ? top_sewn : top) += across;
+      } else if (!sewn[k])
+        upright_free += s.length;
       longer = std::max(longer, partner[k]);
       shorter = std::max(shorter, -partner[k]);
       darts += s.corner_end > 4.7;
@@ -154,7 +164,9 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
   }
 }
 
-Evidence ShapeWitness::panel(std::size_t k) const { return m_panels[k].evidence; }
+Evidence ShapeWitness::panel(std::size_t k) const {
+  return m_panels[k].evidence;
+}
 
 Evidence ShapeWitness::panel(std::size_t k,
                              const std::vector<std::array<double, SHAPE_PARTS>>& parts) const {
@@ -164,20 +176,25 @@ Evidence ShapeWitness::panel(std::size_t k,
   const std::size_t own = static_cast<std::size_t>(
       std::max_element(parts[k].begin(), parts[k].end()) - parts[k].begin());
   for (const Link& l : m_links) {
-    if (l.a != k && l.b != k) continue;
+    if (l.a != k && l.b != k)
+      continue;
     const std::size_t q = l.a == k ? l.b : l.a;
-    for (std::size_t c = 0; c < SHAPE_PARTS; ++c) most[c] = std::max(most[c], parts[q][c]);
+    for (std::size_t c = 0; c < SHAPE_PARTS; ++c)
+      most[c] = std::max(most[c], parts[q][c]);
     if (parts[q][own] > 0.5) {
       relative[0] = std::max(relative[0], m_panels[q].area);
       relative[1] = std::max(relative[1], m_panels[q].height);
     }
   }
   for (const auto& p : parts)
-    for (std::size_t c = 0; c < SHAPE_PARTS; ++c) all[c] = std::max(all[c], p[c]);
+    for (std::size_t c = 0; c < SHAPE_PARTS; ++c)
+      all[c] = std::max(all[c], p[c]);
   std::size_t at = OWN_CLUES;
-  for (std::size_t c = 0; c < SHAPE_PARTS; ++c) out[at++] = step(most[c], SHARES);
+  for (std::size_t c = 0; c < SHAPE_PARTS; ++c)
+    out[at++] = step(most[c], SHARES);
   for (std::size_t c = 0; c < SHAPE_PARTS && at + 4 < CLUES; ++c)
-    if (c == 1 || c == 0) out[at++] = step(all[c], SHARES);
+    if (c == 1 || c == 0)
+      out[at++] = step(all[c], SHARES);
   const std::initializer_list<double> ratios = {0.3,   0.6,  0.8,  0.9, 0.95, 0.98, 0.995,
                                                 1.005, 1.02, 1.05, 1.1, 1.25, 1.7,  3};
   out[at++] = step(relative[0] > 0 ? m_panels[k].area / relative[0] : 0, ratios);

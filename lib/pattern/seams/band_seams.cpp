@@ -26,16 +26,18 @@ public:
   Bands(const Pattern& pattern, std::vector<SeamGuess> guesses)
       : m_pattern(pattern), m_guesses(std::move(guesses)),
         m_sides(seam_sides(pattern, sharp_corners(pattern, units::radians(BAND_CORNER)), 0)) {
-    for (std::size_t p = 0; p < pattern.panels.size(); ++p) m_words.push_back(words_of(pattern, p));
+    for (std::size_t p = 0; p < pattern.panels.size(); ++p)
+      m_words.push_back(words_of(pattern, p));
   }
 
   std::vector<SeamGuess> legs() {
     const auto mirrors = panel_mirrors(m_pattern);
     for (int p = 0; p < count(); ++p)
-      for (const PanelMirror& m : mirrors[static_cast<std::size_t>(p)])
+      for (const PanelMirror& m : mirrors[p])
         if (m.panel > p && may_be_leg(p) && may_be_leg(m.panel)) {
           const auto a = leg_of(p, m.panel), b = leg_of(m.panel, p);
-          if (a && b) join_legs(*a, *b);
+          if (a && b)
+            join_legs(*a, *b);
         }
     return std::move(m_guesses);
   }
@@ -54,9 +56,11 @@ public:
         }
     const auto mirrors = panel_mirrors(m_pattern);
     for (int p = 0; p < count(); ++p)
-      for (const PanelMirror& m : mirrors[static_cast<std::size_t>(p)]) {
-        if (m.panel <= p || joined.find(p) == joined.find(m.panel)) continue;
-        if (says_sleeve(words(p)) && says_sleeve(words(m.panel))) continue; // of two arms
+      for (const PanelMirror& m : mirrors[p]) {
+        if (m.panel <= p || joined.find(p) == joined.find(m.panel))
+          continue;
+        if (says_sleeve(words(p)) && says_sleeve(words(m.panel)))
+          continue; // of two arms
         const SeamSide* longest = nullptr;
         for (const SeamSide& s : m_sides) {
           const Edges edges = s.panel == p ? edges_of(s) : Edges();
@@ -67,9 +71,11 @@ public:
                        taken.count({m.panel, m.image(e.edge, s.loop_size)});
               }))
             continue;
-          if (!longest || s.length > longest->length) longest = &s;
+          if (!longest || s.length > longest->length)
+            longest = &s;
         }
-        if (!longest) continue;
+        if (!longest)
+          continue;
         Edges image;
         for (const RimEdge& e : edges_of(*longest))
           image.insert(image.begin(), {m.panel, m.image(e.edge, longest->loop_size), e.length, -1});
@@ -95,8 +101,8 @@ public:
 
 private:
   int count() const { return static_cast<int>(m_pattern.panels.size()); }
-  const Panel& panel(int p) const { return m_pattern.panels[static_cast<std::size_t>(p)]; }
-  const Words& words(int p) const { return m_words[static_cast<std::size_t>(p)]; }
+  const Panel& panel(int p) const { return m_pattern.panels[p]; }
+  const Words& words(int p) const { return m_words[p]; }
   Edges edges_of(const SeamSide& s) const {
     return edges_between(m_pattern, s.panel, s.first, next_edge(panel(s.panel), s.last()));
   }
@@ -132,7 +138,8 @@ private:
       double turn = turn_before(p, rest[k], rest[k + 1]);
       if (k + 2 < rest.size() && rest[k + 1].length < NOTCH)
         turn = std::max(turn, turn + turn_before(p, rest[k + 1], rest[k + 2]));
-      if (turn > WAIST_CORNER) return Edges(rest.begin(), rest.begin() + static_cast<long>(k) + 1);
+      if (turn > WAIST_CORNER)
+        return Edges(rest.begin(), rest.begin() + static_cast<long>(k) + 1);
     }
     return {};
   }
@@ -150,16 +157,19 @@ private:
           continue;
         const Edges hem = edges_between(m_pattern, p, next_edge(panel(p), a.last()), b.first),
                     rest = edges_between(m_pattern, p, next_edge(panel(p), b.last()), a.first);
-        if (length_of(hem) < LEAST_LEG_HEM * a.length || length_of(rest) < length_of(hem)) continue;
+        if (length_of(hem) < LEAST_LEG_HEM * a.length || length_of(rest) < length_of(hem))
+          continue;
         const Edges after = crotch_of(p, rest);
         Edges before;
         for (std::size_t k = rest.size(); k-- > 1;) {
           double turn = turn_before(p, rest[k - 1], rest[k]);
           before.insert(before.begin(), rest[k]);
-          if (turn > WAIST_CORNER) break;
+          if (turn > WAIST_CORNER)
+            break;
         }
         const double both = length_of(after) + length_of(before);
-        if (after.empty() || before.empty() || both > 0.8 * length_of(rest)) continue;
+        if (after.empty() || before.empty() || both > 0.8 * length_of(rest))
+          continue;
         longest = a.length;
         leg = Leg{p, edges_of(a), edges_of(b), after, before};
       }
@@ -169,10 +179,11 @@ private:
     if (std::abs(std::log(length_of(a.after) / length_of(b.before))) > SAME_END ||
         std::abs(std::log(length_of(a.before) / length_of(b.after))) > SAME_END)
       return;
-    for (SeamGuess& g : m_guesses) g.certain = g.certain && !touches(g.seam, {a.panel, b.panel});
+    for (SeamGuess& g : m_guesses)
+      g.certain = g.certain && !touches(g.seam, {a.panel, b.panel});
     drop_unsure(m_guesses, [&](const Seam& s) { return touches(s, {a.panel, b.panel}); });
     const bool named = says_legs(words(a.panel)) && says_legs(words(b.panel));
-    const int first = static_cast<int>(m_guesses.size());
+    const int first = std::ssize(m_guesses);
     for (const Leg* leg : {&a, &b}) {
       Seam seam;
       seam.name = panel(leg->panel).name + " inseam";
@@ -193,8 +204,8 @@ private:
   }
   /// One answer tells all guesses from that one on.
   void together(int first) {
-    for (int k = first + 1; k < static_cast<int>(m_guesses.size()); ++k)
-      m_guesses[static_cast<std::size_t>(first)].with.push_back(k);
+    for (int k = first + 1; k < std::ssize(m_guesses); ++k)
+      m_guesses[first].with.push_back(k);
   }
 
   /// The long side of a strip, and its ends.
@@ -205,39 +216,49 @@ private:
     Strip strip;
     double outline = 0;
     for (const SeamSide& s : m_sides) {
-      if (s.panel != p) continue;
+      if (s.panel != p)
+        continue;
       outline += s.length;
-      if (!strip.long_side || s.length > strip.long_side->length + 1e-6) strip.long_side = &s;
+      if (!strip.long_side || s.length > strip.long_side->length + 1e-6)
+        strip.long_side = &s;
     }
     if (!strip.long_side || strip.long_side->after < 0 || strip.long_side->before < 0)
       return std::nullopt;
     const double width = 0.5 * (outline - 2 * strip.long_side->length);
-    if (!(strip.long_side->length > SLIM * width)) return std::nullopt;
-    strip.end = &m_sides[static_cast<std::size_t>(strip.long_side->after)];
-    strip.start = &m_sides[static_cast<std::size_t>(strip.long_side->before)];
+    if (!(strip.long_side->length > SLIM * width))
+      return std::nullopt;
+    strip.end = &m_sides[strip.long_side->after];
+    strip.start = &m_sides[strip.long_side->before];
     return strip;
   }
 
   template<class Says> void add_strip(Says says, bool neck) {
     std::vector<int> found;
     for (int p = 0; p < count(); ++p)
-      if (says(words(p)) && !sewn_for_certain(p) && strip_of(p)) found.push_back(p);
-    if (found.size() != 1) return; // which of them is a question of what is made
+      if (says(words(p)) && !sewn_for_certain(p) && strip_of(p))
+        found.push_back(p);
+    if (found.size() != 1)
+      return; // which of them is a question of what is made
     const int p = found[0];
     const Strip strip = *strip_of(p);
     const std::vector<Seam> seams = likely_seams(m_guesses, {p});
     std::optional<Rim> rim;
     for (Rim& r : rims_of(m_pattern, seams)) {
       std::set<int> panels;
-      for (const RimEdge& e : r.edges) panels.insert(e.panel);
+      for (const RimEdge& e : r.edges)
+        panels.insert(e.panel);
       const double share = strip.long_side->length / r.length;
-      if (r.has(p) || panels.size() < 2 || share < SHORTEST_BAND || share > LONGEST_BAND) continue;
-      if (!rim || (r.length < rim->length) == neck) rim = std::move(r);
+      if (r.has(p) || panels.size() < 2 || share < SHORTEST_BAND || share > LONGEST_BAND)
+        continue;
+      if (!rim || (r.length < rim->length) == neck)
+        rim = std::move(r);
     }
-    if (!rim) return;
+    if (!rim)
+      return;
     const Edges around =
         neck ? from_middle_of_back(*rim) : behind_longest_seam(m_pattern, *rim, seams);
-    if (around.empty()) return;
+    if (around.empty())
+      return;
     const bool sure = is_certain(m_guesses, seams, around);
     drop_unsure(m_guesses,
                 [&](const Seam& seam) { return touches(seam, {p}) || takes_any(seam, around); });
@@ -247,9 +268,10 @@ private:
     seam.ease = "rib";
     seam.a = whole(edges_of(*strip.long_side), true);
     seam.b = turned(stretch(around, 0, length_of(around)));
-    const int first = static_cast<int>(m_guesses.size());
+    const int first = std::ssize(m_guesses);
     add(std::move(seam), sure);
-    if (std::abs(std::log(strip.end->length / strip.start->length)) > SAME_END) return;
+    if (std::abs(std::log(strip.end->length / strip.start->length)) > SAME_END)
+      return;
     Seam ends;
     ends.name = panel(p).name + " ends";
     ends.a = whole(edges_of(*strip.end), true);
@@ -262,7 +284,8 @@ private:
   /// back's.
   Edges from_middle_of_back(const Rim& rim) const {
     std::map<int, double> of_panel;
-    for (const RimEdge& e : rim.edges) of_panel[e.panel] += e.length;
+    for (const RimEdge& e : rim.edges)
+      of_panel[e.panel] += e.length;
     int back = -1;
     for (const auto& [p, l] : of_panel) {
       const bool says = says_back(words(p));
@@ -273,8 +296,10 @@ private:
     const std::size_t n = rim.edges.size();
     std::size_t first = n;
     for (std::size_t k = 0; k < n; ++k)
-      if (rim.edges[k].panel == back && rim.edges[(k + n - 1) % n].panel != back) first = k;
-    if (first == n) return {};
+      if (rim.edges[k].panel == back && rim.edges[(k + n - 1) % n].panel != back)
+        first = k;
+    if (first == n)
+      return {};
     double at = 0, best = 1e300;
     std::size_t begin = first;
     for (std::size_t k = first; rim.edges[k % n].panel == back && k < first + n; ++k) {

@@ -55,7 +55,9 @@ Sampled sample(const Panel& panel) {
   return out;
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// Whether the open segments ab and cd cross or touch.
 bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
@@ -83,13 +85,16 @@ public:
   /// @param meant  with what can be sewn and seems to be meant otherwise, which a live edit does
   /// not wait for
   std::vector<PatternFinding> run(bool meant = true) {
-    for (const Panel& p : m_pattern.panels) check_outline(p);
+    for (const Panel& p : m_pattern.panels)
+      check_outline(p);
     check_unit();
     check_runs();
     for (const Seam& s : m_pattern.seams)
-      if (s.kind != "pleat") check_seam(s);
+      if (s.kind != "pleat")
+        check_seam(s);
     check_unsewn();
-    if (meant) check_missing();
+    if (meant)
+      check_missing();
     return std::move(m_out);
   }
 
@@ -116,9 +121,11 @@ private:
         which = &panel;
       }
     }
-    if (!which) return;
+    if (!which)
+      return;
     const bool small = largest.maxCoeff() < LEAST;
-    if (!small && largest.prod() < MOST) return;
+    if (!small && largest.prod() < MOST)
+      return;
     const double factor = small ? UNIT_STEP : 1 / UNIT_STEP;
     const auto extent = [&](double by) {
       return centimetres(by * largest.x()) + " by " + centimetres(by * largest.y());
@@ -132,8 +139,10 @@ private:
 
   /// Where the file states its unit.
   std::string unit_key() const {
-    if (m_pattern.source_format == "pattern") return "\"length_unit\"";
-    if (m_pattern.source_format == "garmentcode") return "\"units_in_meter\" in \"properties\"";
+    if (m_pattern.source_format == "pattern")
+      return "\"length_unit\"";
+    if (m_pattern.source_format == "garmentcode")
+      return "\"units_in_meter\" in \"properties\"";
     if (m_pattern.source_format == "dxf")
       return "the text \"Units\", or $INSUNITS, or state it with --unit";
     return "that lengths are in millimetres, as the format asks for";
@@ -153,7 +162,8 @@ private:
     const std::size_t n = s.points.size();
     std::vector<std::size_t> order(
         n); // by their left end, so that only neighbours in x are compared
-    for (std::size_t k = 0; k < n; ++k) order[k] = k;
+    for (std::size_t k = 0; k < n; ++k)
+      order[k] = k;
     const auto left = [&](std::size_t k) {
       return std::min(s.points[k].x(), s.points[s.next[k]].x());
     };
@@ -171,7 +181,8 @@ private:
           continue;
         const std::pair<int, int> edges{std::min(s.edge[a], s.edge[b]),
                                         std::max(s.edge[a], s.edge[b])};
-        if (reported[edges]) continue;
+        if (reported[edges])
+          continue;
         reported[edges] = true;
         const std::string first = panel.edge(edges.first).name,
                           second = panel.edge(edges.second).name;
@@ -188,9 +199,11 @@ private:
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t b = s.next[k], c = s.next[b];
       const Vec2 in = s.points[k] - s.points[b], out = s.points[c] - s.points[b];
-      if (in.norm() < 1e-9 || out.norm() < 1e-9) continue;
+      if (in.norm() < 1e-9 || out.norm() < 1e-9)
+        continue;
       double angle = units::degrees(std::atan2(cross(out, in), out.dot(in)));
-      if (angle < 0) angle += 360;
+      if (angle < 0)
+        angle += 360;
       if (angle < SPIKE) {
         char text[80];
         std::snprintf(text, sizeof text, "a spike of %.1f degrees %s", angle,
@@ -203,7 +216,8 @@ private:
   /// A hole that crosses nothing lies in the panel with its first point, or not at all.
   void check_holes(const Panel& panel, const Sampled& s) {
     for (std::size_t h = 0; h < s.points.size(); ++h) {
-      if (s.loop[h] == 0 || (h > 0 && s.loop[h] == s.loop[h - 1])) continue;
+      if (s.loop[h] == 0 || (h > 0 && s.loop[h] == s.loop[h - 1]))
+        continue;
       bool inside = false;
       double nearest = 1e300;
       for (std::size_t k = 0; k < s.points.size() && s.loop[k] == 0; ++k) {
@@ -230,16 +244,18 @@ private:
     for (std::size_t side = 0; side < 2; ++side) {
       const Run& run = side ? seam.b[0] : seam.a[0];
       sewn[side] = run_length(m_pattern, run);
-      for (const Notch& n : m_pattern.panels[static_cast<std::size_t>(run.panel)].notches)
+      for (const Notch& n : m_pattern.panels[run.panel].notches)
         if (n.edge == run.edge && n.at >= std::min(run.from, run.to) &&
             n.at <= std::max(run.from, run.to))
           at[side].push_back((n.at - run.from) / (run.to - run.from) * sewn[side]);
     }
-    if (at[0].empty() || at[1].empty()) return;
+    if (at[0].empty() || at[1].empty())
+      return;
     for (std::size_t side = 0; side < 2; ++side)
       for (double x : at[side]) {
         double nearest = 1e300;
-        for (double y : at[1 - side]) nearest = std::min(nearest, std::abs(x - y));
+        for (double y : at[1 - side])
+          nearest = std::min(nearest, std::abs(x - y));
         if (nearest > 0.01)
           add("warning", "notch-mismatch", "seam " + seam.name,
               "the notch of " + place_of(m_pattern, side ? seam.b[0] : seam.a[0]) + " at " +
@@ -256,14 +272,14 @@ private:
     for (const Seam& seam : m_pattern.seams)
       for (const auto* side : {&seam.a, &seam.b})
         for (const Run& run : *side) {
-          if (seam.kind == "pleat") continue; // three layers in one line
+          if (seam.kind == "pleat")
+            continue; // three layers in one line
           const Use use{std::min(run.from, run.to), std::max(run.from, run.to), seam.name};
           for (const Use& other : uses[{run.panel, run.edge}]) {
             const double overlap = std::min(use.to, other.to) - std::max(use.from, other.from);
-            if (overlap < 1e-6) continue;
-            const double metres =
-                overlap *
-                length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
+            if (overlap < 1e-6)
+              continue;
+            const double metres = overlap * length(m_pattern.panels[run.panel].edge(run.edge).path);
             add("error", "sewn-twice", place_of(m_pattern, run),
                 centimetres(metres) + " are sewn twice, by " + other.seam + " and by " + use.seam);
           }
@@ -316,7 +332,8 @@ private:
     std::vector<char> sewn(m_pattern.panels.size(), 0);
     for (const Seam& seam : m_pattern.seams)
       for (const auto* side : {&seam.a, &seam.b})
-        for (const Run& run : *side) sewn[static_cast<std::size_t>(run.panel)] = 1;
+        for (const Run& run : *side)
+          sewn[run.panel] = 1;
     for (std::size_t k = 0; k < sewn.size(); ++k)
       if (!sewn[k])
         add(m_pattern.panels.size() == 1 ? "info" : "warning", "unsewn-panel",
@@ -329,7 +346,9 @@ private:
 
 } // namespace
 
-std::vector<PatternFinding> check_pattern(const Pattern& pattern) { return Check(pattern).run(); }
+std::vector<PatternFinding> check_pattern(const Pattern& pattern) {
+  return Check(pattern).run();
+}
 
 io::Json findings_sarif(const std::vector<PatternFinding>& findings, const std::string& file,
                         const std::string& tool) {

@@ -25,14 +25,17 @@ constexpr double SAME_LENGTH = 0.03; // logarithm: the two sides of a sleeve's s
 constexpr double SLEEVE_CLOSES = 6;
 constexpr double SAME_NAME = 5, OTHER_NAME = -1.5, UNLIKELY = -4; // log-odds
 
-double probability(double odds) { return 1 / (1 + std::exp(-odds)); }
+double probability(double odds) {
+  return 1 / (1 + std::exp(-odds));
+}
 
 /// What names say about pairs of sides, as log-odds.
 class NamesSay {
 public:
   NamesSay(const Pattern& pattern, const std::vector<SeamSide>& sides)
       : m_pattern(pattern), m_sides(sides) {
-    for (std::size_t p = 0; p < pattern.panels.size(); ++p) m_words.push_back(words_of(pattern, p));
+    for (std::size_t p = 0; p < pattern.panels.size(); ++p)
+      m_words.push_back(words_of(pattern, p));
   }
 
   std::vector<double> all() const {
@@ -46,23 +49,29 @@ public:
 
 private:
   double of(const SeamSide& a, const SeamSide& b) const {
-    if (a.name == "hem" || b.name == "hem") return SeamWitness::IMPOSSIBLE;
+    if (a.name == "hem" || b.name == "hem")
+      return SeamWitness::IMPOSSIBLE;
     const bool middle = a.name == "crotch" || a.name == "cf" || a.name == "cb" ||
                         a.name == "centre" || a.name == "center";
-    if (a.hand * b.hand < 0 && !middle) return SeamWitness::IMPOSSIBLE;
+    if (a.hand * b.hand < 0 && !middle)
+      return SeamWitness::IMPOSSIBLE;
     if (says_sleeve(words(a)) && says_sleeve(words(b)) && cut_as_pair(a.panel, b.panel))
       return SeamWitness::IMPOSSIBLE; // of the other arm
     double odds = 0;
     if (!a.name.empty() && !b.name.empty()) {
-      if (a.name != b.name) odds += OTHER_NAME;
-      else if (!rim(a.name)) odds += SAME_NAME;
+      if (a.name != b.name)
+        odds += OTHER_NAME;
+      else if (!rim(a.name))
+        odds += SAME_NAME;
     }
     const Words &own = words(a), &other = words(b);
     const bool adjacent =
         a.loop_begin == b.loop_begin && (a.last() == before(b) || b.last() == before(a));
-    if (a.panel == b.panel && !adjacent && says_anything(own) && !around(own)) odds += UNLIKELY;
+    if (a.panel == b.panel && !adjacent && says_anything(own) && !around(own))
+      odds += UNLIKELY;
     const bool is_half = name_suggests_front(own) || says_back(own);
-    if (is_tube(a, b) && says_sleeve(own) && !is_half) odds += SLEEVE_CLOSES;
+    if (is_tube(a, b) && says_sleeve(own) && !is_half)
+      odds += SLEEVE_CLOSES;
     if (a.panel != b.panel && says_sleeve(own) && says_sleeve(other) &&
         says_left(own) != says_left(other))
       odds += UNLIKELY;
@@ -70,17 +79,16 @@ private:
   }
   /// Whether one is the mirror image of the other that a piece cut twice got on reading.
   bool cut_as_pair(int p, int q) const {
-    const std::string &own = m_pattern.panels[static_cast<std::size_t>(p)].name,
-                      &other = m_pattern.panels[static_cast<std::size_t>(q)].name;
+    const std::string &own = m_pattern.panels[p].name, &other = m_pattern.panels[q].name;
     return own + "_mirror" == other || other + "_mirror" == own;
   }
   /// Two sides of one panel, equally long, on either side of a third: the panel may be a tube.
   bool is_tube(const SeamSide& a, const SeamSide& b) const {
     constexpr double LEAST_HEM = 0.3; // of a side: the third is no notch between halves of a hem
-    if (a.panel != b.panel || std::abs(std::log(a.length / b.length)) >= SAME_LENGTH) return false;
+    if (a.panel != b.panel || std::abs(std::log(a.length / b.length)) >= SAME_LENGTH)
+      return false;
     for (const auto& [third, last] : {std::pair{a.after, b.before}, std::pair{b.after, a.before}})
-      if (third >= 0 && third == last &&
-          m_sides[static_cast<std::size_t>(third)].length > LEAST_HEM * a.length)
+      if (third >= 0 && third == last && m_sides[third].length > LEAST_HEM * a.length)
         return third == a.after ? at_hem(a.corner_end, b.corner_start)
                                 : at_hem(b.corner_end, a.corner_start);
     return false;
@@ -91,16 +99,15 @@ private:
     constexpr double FLATTEST_CORNER = 130; // degrees
     return std::max(first, second) < units::radians(FLATTEST_CORNER);
   }
-  const Words& words(const SeamSide& side) const {
-    return m_words[static_cast<std::size_t>(side.panel)];
-  }
+  const Words& words(const SeamSide& side) const { return m_words[side.panel]; }
   static int before(const SeamSide& s) {
     return s.loop_begin + (s.first - s.loop_begin + s.loop_size - 1) % s.loop_size;
   }
   /// What both halves of a garment have and sew to others, or leave free, but not to each other.
   static bool rim(const std::string& name) {
     for (const char* word : {"waist", "neck", "neckline", "wrist", "top", "bottom", "opening"})
-      if (name == word) return true;
+      if (name == word)
+        return true;
     return false;
   }
   /// Whether a piece goes around something and may close on itself.
@@ -133,22 +140,27 @@ public:
 
   std::vector<SeamGuess> guesses() const {
     std::vector<std::pair<double, SidePair>> found;
-    for (const auto& [pair, odds] : m_result.pairs) found.push_back({-odds, pair});
+    for (const auto& [pair, odds] : m_result.pairs)
+      found.push_back({-odds, pair});
     std::sort(found.begin(), found.end());
     std::vector<char> used(m_sides.size(), 0);
     std::vector<SidePair> taken;
     std::vector<SeamGuess> out;
     for (const auto& [cost, pair] : found) {
-      if (-cost < WORTH_ASKING) break;
+      if (-cost < WORTH_ASKING)
+        break;
       SeamGuess guess = guess_of(pair, -cost);
       guess.certain = -cost >= CERTAIN;
-      if (guess.certain) used[index(pair[0])] = used[index(pair[1])] = 1;
+      if (guess.certain)
+        used[index(pair[0])] = used[index(pair[1])] = 1;
       out.push_back(std::move(guess));
       taken.push_back(pair);
     }
     for (std::size_t k = 0; k < out.size(); ++k) {
-      if (out[k].certain) continue;
-      if (const auto other = next_best(taken[k], used)) out[k].instead.push_back(*other);
+      if (out[k].certain)
+        continue;
+      if (const auto other = next_best(taken[k], used))
+        out[k].instead.push_back(*other);
       for (const SidePair& twin : m_witness.twins(index(taken[k][0]), index(taken[k][1])))
         for (std::size_t q = 0; q < out.size(); ++q)
           if (taken[q] == twin && !out[q].certain && out[k].twin < 0)
@@ -181,8 +193,10 @@ private:
     guess.seam.name = name(a) + "-" + name(b);
     guess.seam.a = runs(a, true);
     guess.seam.b = runs(b, false);
-    if (a.panel == b.panel && (a.after == pair[1] || b.after == pair[0])) guess.seam.kind = "dart";
-    else if (std::abs(std::log(a.length / b.length)) > GATHERED) guess.seam.kind = "gather";
+    if (a.panel == b.panel && (a.after == pair[1] || b.after == pair[0]))
+      guess.seam.kind = "dart";
+    else if (std::abs(std::log(a.length / b.length)) > GATHERED)
+      guess.seam.kind = "gather";
     guess.score = probability(odds);
     return guess;
   }
@@ -190,15 +204,17 @@ private:
     SidePair best{-1, -1};
     double most = WORTH_A_WORD;
     for (int own : pair)
-      for (int k = 0; k < static_cast<int>(m_sides.size()); ++k) {
-        if (k == pair[0] || k == pair[1] || used[index(k)]) continue;
+      for (int k = 0; k < std::ssize(m_sides); ++k) {
+        if (k == pair[0] || k == pair[1] || used[index(k)])
+          continue;
         const double odds = m_result.base[index(own) * m_sides.size() + index(k)];
         if (odds > most) {
           most = odds;
           best = {std::min(own, k), std::max(own, k)};
         }
       }
-    if (best[0] < 0) return std::nullopt;
+    if (best[0] < 0)
+      return std::nullopt;
     return guess_of(best, most);
   }
 
@@ -210,12 +226,13 @@ private:
 };
 
 io::Json run_json(const Pattern& pattern, const Run& run) {
-  const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
+  const Panel& panel = pattern.panels[run.panel];
   io::Json out = {{"panel", panel.name},
                   {"run", panel.edge(run.edge).name},
                   {"dir", run.from < run.to ? "+" : "-"}};
   const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
-  if (low > 0 || high < 1) out["range"] = {low, high};
+  if (low > 0 || high < 1)
+    out["range"] = {low, high};
   return out;
 }
 
@@ -225,8 +242,10 @@ io::Json seam_json(const Pattern& pattern, const SeamGuess& guess) {
                   {"a", io::Json::array()},
                   {"b", io::Json::array()},
                   {"score", guess.score}};
-  for (const Run& run : guess.seam.a) out["a"].push_back(run_json(pattern, run));
-  for (const Run& run : guess.seam.b) out["b"].push_back(run_json(pattern, run));
+  for (const Run& run : guess.seam.a)
+    out["a"].push_back(run_json(pattern, run));
+  for (const Run& run : guess.seam.b)
+    out["b"].push_back(run_json(pattern, run));
   return out;
 }
 
@@ -241,7 +260,8 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
     drop_bags(pattern, guesses);
     return with_rim_seams(pattern, std::move(guesses));
   };
-  if (sharp == all) return completed(edges.guesses());
+  if (sharp == all)
+    return completed(edges.guesses());
   const Inference sides(pattern, sharp);
   return completed((sides.worth() > edges.worth() ? sides : edges).guesses());
 }
@@ -250,14 +270,17 @@ std::vector<std::string> panels_apart(const Pattern& pattern) {
   DisjointSets joined(pattern.panels.size());
   for (const Seam& seam : pattern.seams)
     for (const auto* side : {&seam.a, &seam.b})
-      for (const Run& run : *side) joined.unite(seam.a[0].panel, run.panel);
+      for (const Run& run : *side)
+        joined.unite(seam.a[0].panel, run.panel);
   std::map<int, int> size;
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p) ++size[joined.find(static_cast<int>(p))];
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p)
+    ++size[joined.find(static_cast<int>(p))];
   const auto most = std::max_element(
       size.begin(), size.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<std::string> out;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-    if (joined.find(static_cast<int>(p)) != most->first) out.push_back(pattern.panels[p].name);
+    if (joined.find(static_cast<int>(p)) != most->first)
+      out.push_back(pattern.panels[p].name);
   return out;
 }
 
@@ -273,22 +296,24 @@ io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& 
       doc["seams"].push_back(seam_json(pattern, guess));
       continue;
     }
-    if (asked[k]) continue;
+    if (asked[k])
+      continue;
     io::Json candidates = io::Json::array({seam_json(pattern, guess)});
-    if (!guess.instead.empty()) candidates.push_back(seam_json(pattern, guess.instead[0]));
+    if (!guess.instead.empty())
+      candidates.push_back(seam_json(pattern, guess.instead[0]));
     if (guess.twin >= 0) {
-      const SeamGuess& twin = guesses[static_cast<std::size_t>(guess.twin)];
-      asked[static_cast<std::size_t>(guess.twin)] = 1;
+      const SeamGuess& twin = guesses[guess.twin];
+      asked[guess.twin] = 1;
       candidates[0]["and"] = io::Json::array({seam_json(pattern, twin)});
       if (candidates.size() > 1 && !twin.instead.empty())
         candidates[1]["and"] = io::Json::array({seam_json(pattern, twin.instead[0])});
     }
     for (const int other : guess.with) {
-      asked[static_cast<std::size_t>(other)] = 1;
-      candidates[0]["and"].push_back(seam_json(pattern, guesses[static_cast<std::size_t>(other)]));
+      asked[other] = 1;
+      candidates[0]["and"].push_back(seam_json(pattern, guesses[other]));
     }
     const Run& run = guess.seam.a[0];
-    const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
+    const Panel& panel = pattern.panels[run.panel];
     doc["questions"].push_back({{"panel", panel.name},
                                 {"run", panel.edge(run.edge).name},
                                 {"length", side_length(pattern, guess.seam.a)},

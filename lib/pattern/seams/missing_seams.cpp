@@ -35,38 +35,39 @@ class Search {
 public:
   explicit Search(const Pattern& pattern) : m_pattern(pattern) {
     for (const Panel& panel : pattern.panels) {
-      m_first.push_back(static_cast<int>(m_nodes.size()));
-      for (std::size_t e = 0; e < panel.loops[0].size(); ++e) m_nodes.add();
+      m_first.push_back(std::ssize(m_nodes));
+      for (std::size_t e = 0; e < panel.loops[0].size(); ++e)
+        m_nodes.add();
       m_sewn.emplace_back(static_cast<std::size_t>(panel.n_edges()), false);
       std::vector<double>& lengths = m_length.emplace_back();
-      for (int e = 0; e < panel.n_edges(); ++e) lengths.push_back(length(panel.edge(e).path));
+      for (int e = 0; e < panel.n_edges(); ++e)
+        lengths.push_back(length(panel.edge(e).path));
     }
     for (const Seam& seam : pattern.seams) {
       for (const auto* side : {&seam.a, &seam.b})
         for (const Run& run : *side)
-          m_sewn[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)] = true;
-      if (seam.kind != "pleat") weld(seam);
+          m_sewn[run.panel][run.edge] = true;
+      if (seam.kind != "pleat")
+        weld(seam);
     }
   }
 
   std::vector<MissingSeam> run() {
-    if (m_pattern.seams.empty()) return {};
+    if (m_pattern.seams.empty())
+      return {};
     holes();
     find_mirrors();
     for (const Seam& seam : m_pattern.seams)
-      if (seam.kind != "pleat") other_half(seam);
+      if (seam.kind != "pleat")
+        other_half(seam);
     return std::move(m_out);
   }
 
 private:
-  const Panel& panel(int p) const { return m_pattern.panels[static_cast<std::size_t>(p)]; }
+  const Panel& panel(int p) const { return m_pattern.panels[p]; }
   int count(int p) const { return static_cast<int>(panel(p).loops[0].size()); }
-  double length_of(const EdgeId& e) const {
-    return m_length[static_cast<std::size_t>(e.panel)][static_cast<std::size_t>(e.edge)];
-  }
-  bool sewn(const EdgeId& e) const {
-    return m_sewn[static_cast<std::size_t>(e.panel)][static_cast<std::size_t>(e.edge)];
-  }
+  double length_of(const EdgeId& e) const { return m_length[e.panel][e.edge]; }
+  bool sewn(const EdgeId& e) const { return m_sewn[e.panel][e.edge]; }
   EdgeId after(const EdgeId& e) const { return {e.panel, (e.edge + 1) % count(e.panel)}; }
   EdgeId before(const EdgeId& e) const {
     return {e.panel, (e.edge + count(e.panel) - 1) % count(e.panel)};
@@ -75,17 +76,21 @@ private:
   // Corners, and places on edges that meet a corner, are joined where seams join them. A corner has
   // the number of the edge that begins there.
   int corner(const EdgeId& e, bool end) const {
-    return m_first[static_cast<std::size_t>(e.panel)] + (end ? after(e) : e).edge;
+    return m_first[e.panel] + (end ? after(e) : e).edge;
   }
   int find(int node) const { return m_nodes.find(node); }
   int node_at(const Run& run, double fraction) {
     const EdgeId e{run.panel, run.edge};
-    if (run.edge >= count(run.panel)) return -1; // of a hole
+    if (run.edge >= count(run.panel))
+      return -1; // of a hole
     const double at = fraction * length_of(e);
-    if (at < SAME_PLACE) return corner(e, false);
-    if (at > length_of(e) - SAME_PLACE) return corner(e, true);
+    if (at < SAME_PLACE)
+      return corner(e, false);
+    if (at > length_of(e) - SAME_PLACE)
+      return corner(e, true);
     for (const auto& [edge, place, node] : m_places)
-      if (edge == e && std::abs(place - at) < SAME_PLACE) return node;
+      if (edge == e && std::abs(place - at) < SAME_PLACE)
+        return node;
     m_places.push_back({e, at, m_nodes.add()});
     return m_places.back().node;
   }
@@ -108,12 +113,15 @@ private:
         for (const Run& run : *side) { // both runs that meet there
           const double own = run_length(m_pattern, run), along = end * all - at;
           at += own;
-          if (along < -SAME_PLACE || along > own + SAME_PLACE) continue;
+          if (along < -SAME_PLACE || along > own + SAME_PLACE)
+            continue;
           const int node =
               node_at(run, run.from + (run.to - run.from) *
                                           std::clamp(along / std::max(own, 1e-9), 0.0, 1.0));
-          if (node < 0) continue;
-          if (first < 0) first = node;
+          if (node < 0)
+            continue;
+          if (first < 0)
+            first = node;
           m_nodes.unite_into(node, first);
         }
       }
@@ -132,24 +140,27 @@ private:
   double cloth_around(int node) const {
     const int joined = find(node);
     double sum = 0;
-    for (int p = 0; p < static_cast<int>(m_pattern.panels.size()); ++p)
+    for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
       for (int k = 0; k < count(p); ++k)
-        if (find(m_first[static_cast<std::size_t>(p)] + k) == joined)
+        if (find(m_first[p] + k) == joined)
           sum += angle_before(p, 0, count(p), k);
     for (const auto& place : m_places)
-      if (find(place.node) == joined) sum += units::PI;
+      if (find(place.node) == joined)
+        sum += units::PI;
     return sum;
   }
 
   /// Free edges one after the other, between two that are sewn.
   std::vector<std::vector<EdgeId>> gaps() const {
     std::vector<std::vector<EdgeId>> out;
-    for (int p = 0; p < static_cast<int>(m_pattern.panels.size()); ++p)
+    for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
       for (int k = 0; k < count(p); ++k) {
         EdgeId e{p, k};
-        if (sewn(e) || !sewn(before(e))) continue;
+        if (sewn(e) || !sewn(before(e)))
+          continue;
         std::vector<EdgeId>& gap = out.emplace_back();
-        for (; !sewn(e); e = after(e)) gap.push_back(e);
+        for (; !sewn(e); e = after(e))
+          gap.push_back(e);
       }
     return out;
   }
@@ -163,7 +174,8 @@ private:
       return run.panel == e.panel && run.edge == e.edge;
     };
     for (const MissingSeam& s : m_out)
-      if ((met(s.a, a) && met(s.b, b)) || (met(s.a, b) && met(s.b, a))) return;
+      if ((met(s.a, a) && met(s.b, b)) || (met(s.a, b) && met(s.b, a)))
+        return;
     m_out.push_back({{a.panel, a.edge, 0, 1}, {b.panel, b.edge, 1, 0}, why});
   }
 
@@ -188,7 +200,7 @@ private:
           tell(all[i].front(), all[j].back(), point);
       }
     }
-    for (int p = 0; p < static_cast<int>(m_pattern.panels.size()); ++p) { // a dart within a panel
+    for (int p = 0; p < std::ssize(m_pattern.panels); ++p) { // a dart within a panel
       int first = count(p);
       for (std::size_t h = 1; h < panel(p).loops.size();
            first += static_cast<int>(panel(p).loops[h++].size())) {
@@ -218,7 +230,8 @@ private:
   std::vector<double> notches_of(int p, int e, bool turned) const {
     std::vector<double> out;
     for (const Notch& n : panel(p).notches)
-      if (n.edge == e) out.push_back(turned ? 1 - n.at : n.at);
+      if (n.edge == e)
+        out.push_back(turned ? 1 - n.at : n.at);
     std::sort(out.begin(), out.end());
     return out;
   }
@@ -241,7 +254,8 @@ private:
       const double own = length_of({p, e}), other = length_of({q, f}),
                    off = std::max(ALIKE, ALIKE_PART * own);
       const Vec2 a = chord(p, e), b = chord(q, f);
-      if (!alike(own, other) || (b - Vec2(-a.x(), a.y())).norm() > 2 * off) return false;
+      if (!alike(own, other) || (b - Vec2(-a.x(), a.y())).norm() > 2 * off)
+        return false;
       const std::vector<double> at = notches_of(p, e, true), there = notches_of(q, f, false);
       if (!std::equal(at.begin(), at.end(), there.begin(), there.end(),
                       [](double x, double y) { return std::abs(x - y) < SAME_NOTCH; }))
@@ -254,45 +268,53 @@ private:
   Mirror mirror(int p, int q) const {
     if (count(p) == count(q))
       for (int sum = 0; sum < count(p); ++sum)
-        if (mirrors(p, q, sum)) return {q, sum};
+        if (mirrors(p, q, sum))
+          return {q, sum};
     return {};
   }
 
   /// The other half of each panel: the one that its name tells, else itself, else the only one that
   /// it can be.
   void find_mirrors() {
-    const int n = static_cast<int>(m_pattern.panels.size());
+    const int n = std::ssize(m_pattern.panels);
     std::vector<Words> words;
     std::vector<int> side; // 1 left, -1 right
     for (const Panel& p : m_pattern.panels) {
       Words own = words_of(p.name), bare;
       side.push_back((says_left(own) ? 1 : 0) - (says_right(own) ? 1 : 0));
       for (const std::string& word : own)
-        if (!says_left({word}) && !says_right({word})) bare.insert(word);
+        if (!says_left({word}) && !says_right({word}))
+          bare.insert(word);
       words.push_back(std::move(bare));
     }
     m_mirror.assign(static_cast<std::size_t>(n), {});
-    const auto at = [](auto& list, int k) -> auto& { return list[static_cast<std::size_t>(k)]; };
+    const auto at = [](auto& list, int k) -> auto& {
+      return list[k];
+    };
     for (int p = 0; p < n; ++p)
       for (int q = 0; q < n && at(m_mirror, p).panel < 0; ++q)
         if (at(side, p) * at(side, q) < 0 && at(words, p) == at(words, q))
           at(m_mirror, p) = mirror(p, q);
     for (int p = 0; p < n; ++p)
-      if (at(m_mirror, p).panel < 0) at(m_mirror, p) = mirror(p, p);
+      if (at(m_mirror, p).panel < 0)
+        at(m_mirror, p) = mirror(p, p);
     for (int p = 0; p < n; ++p) {
-      if (at(m_mirror, p).panel >= 0) continue;
+      if (at(m_mirror, p).panel >= 0)
+        continue;
       std::vector<Mirror> others;
       for (int q = 0; q < n; ++q)
         if (const Mirror m = q == p || at(m_mirror, q).panel == q ? Mirror{} : mirror(p, q);
             m.panel >= 0)
           others.push_back(m);
-      if (others.size() == 1) at(m_mirror, p) = others[0];
+      if (others.size() == 1)
+        at(m_mirror, p) = others[0];
     }
   }
 
   EdgeId image(const EdgeId& e) const {
-    const Mirror& m = m_mirror[static_cast<std::size_t>(e.panel)];
-    if (m.panel < 0 || e.edge >= count(e.panel)) return {-1, -1};
+    const Mirror& m = m_mirror[e.panel];
+    if (m.panel < 0 || e.edge >= count(e.panel))
+      return {-1, -1};
     return {m.panel, (m.sum - e.edge + count(e.panel)) % count(e.panel)};
   }
 
@@ -316,9 +338,10 @@ private:
 
   /// The free edge that the rim goes on with, straight on; no edge where it turns a corner.
   EdgeEnd straight_on(const EdgeEnd& from) const {
-    if (std::abs(cloth_around(node_of(from)) - units::PI) > LARGEST_TURN) return {};
+    if (std::abs(cloth_around(node_of(from)) - units::PI) > LARGEST_TURN)
+      return {};
     std::vector<EdgeEnd> found;
-    for (int p = 0; p < static_cast<int>(m_pattern.panels.size()); ++p)
+    for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
       for (int k = 0; k < count(p); ++k)
         for (const bool end : {false, true}) {
           const EdgeEnd e{{p, k}, end};
@@ -333,8 +356,10 @@ private:
   /// where the same panels are sewn together: it is a slit or a placket.
   bool goes_on_sewn(std::array<EdgeEnd, 2> ends) const {
     for (std::size_t step = 0; step < m_first.size(); ++step) {
-      if (sewn_together(beyond(ends[0]), beyond(ends[1]))) return true;
-      if (node_of(ends[0]) == node_of(ends[1])) return false;
+      if (sewn_together(beyond(ends[0]), beyond(ends[1])))
+        return true;
+      if (node_of(ends[0]) == node_of(ends[1]))
+        return false;
       ends = {straight_on(ends[0]), straight_on(ends[1])};
       if (ends[0].edge.panel < 0 || ends[1].edge.panel < 0 ||
           !alike(length_of(ends[0].edge), length_of(ends[1].edge)))
@@ -348,7 +373,8 @@ private:
     for (const auto* runs : {&seam.a, &seam.b})
       for (const Run& run : *runs) {
         const EdgeId e = image({run.panel, run.edge});
-        if (e.panel < 0 || sewn(e) || std::abs(run.from - run.to) < 1 - 1e-6) return;
+        if (e.panel < 0 || sewn(e) || std::abs(run.from - run.to) < 1 - 1e-6)
+          return;
         side[runs == &seam.b].push_back(e);
       }
     for (const bool end : {false, true}) {
@@ -359,7 +385,8 @@ private:
         ends[s] = {end ? side[s].back() : side[s].front(),
                    (run.from < run.to) != end}; // an image runs the other way round
       }
-      if (goes_on_sewn(ends)) return;
+      if (goes_on_sewn(ends))
+        return;
     }
     tell(side[0].front(), side[1].front(),
          "their like in the other half are sewn together (" + seam.name + ")");
@@ -382,6 +409,8 @@ private:
 
 } // namespace
 
-std::vector<MissingSeam> missing_seams(const Pattern& pattern) { return Search(pattern).run(); }
+std::vector<MissingSeam> missing_seams(const Pattern& pattern) {
+  return Search(pattern).run();
+}
 
 } // namespace sloper::pattern

@@ -39,7 +39,8 @@ public:
   RimSeams(const Pattern& pattern, std::vector<SeamGuess> guesses)
       : m_pattern(pattern), m_guesses(std::move(guesses)), m_mirrors(panel_mirrors(pattern)),
         m_sides(seam_sides(pattern, sharp_corners(pattern, units::radians(RIM_CORNER)), 0)) {
-    for (std::size_t p = 0; p < pattern.panels.size(); ++p) m_words.push_back(words_of(pattern, p));
+    for (std::size_t p = 0; p < pattern.panels.size(); ++p)
+      m_words.push_back(words_of(pattern, p));
   }
 
   std::vector<SeamGuess> run() {
@@ -48,12 +49,13 @@ public:
   }
 
 private:
-  const Panel& panel(int p) const { return m_pattern.panels[static_cast<std::size_t>(p)]; }
-  const Words& words(int p) const { return m_words[static_cast<std::size_t>(p)]; }
+  const Panel& panel(int p) const { return m_pattern.panels[p]; }
+  const Words& words(int p) const { return m_words[p]; }
 
   bool mirrored(int p, int q) const {
-    for (const PanelMirror& m : m_mirrors[static_cast<std::size_t>(p)])
-      if (m.panel == q) return true;
+    for (const PanelMirror& m : m_mirrors[p])
+      if (m.panel == q)
+        return true;
     return false;
   }
   bool sewn_for_certain(int p) const {
@@ -67,14 +69,16 @@ private:
     const Vec2 a = panel(edges.front().panel).edge(edges.front().edge).path.front().p[0],
                b = panel(edges.back().panel).edge(edges.back().edge).path.back().p[3],
                chord = b - a;
-    if (!(chord.norm() > 1e-6)) return 0;
+    if (!(chord.norm() > 1e-6))
+      return 0;
     const Vec2 out = Vec2(chord.y(), -chord.x()).normalized();
     double most = 0;
     for (const RimEdge& e : edges)
       for (const Segment& s : panel(e.panel).edge(e.edge).path)
         for (double t : {0.25, 0.5, 0.75, 1.0}) {
           const double off = (s.at(t) - a).dot(out);
-          if (std::abs(off) > std::abs(most)) most = off;
+          if (std::abs(off) > std::abs(most))
+            most = off;
         }
     return most / chord.norm();
   }
@@ -91,7 +95,8 @@ private:
     Sleeve sleeve;
     sleeve.panel = p;
     sleeve.named = says_sleeve(words(p)) && !half;
-    if (says_anything(words(p)) && !sleeve.named) return std::nullopt;
+    if (says_anything(words(p)) && !sleeve.named)
+      return std::nullopt;
     const SeamSide *first = nullptr, *second = nullptr;
     double best = SAME_SEAM_SIDE;
     for (const SeamSide& a : m_sides)
@@ -99,7 +104,8 @@ private:
         if (a.panel != p || b.panel != p || a.loop_begin != 0 || b.loop_begin != 0 || &a == &b)
           continue;
         const double unlike = std::abs(std::log(a.length / b.length));
-        if (unlike >= best) continue;
+        if (unlike >= best)
+          continue;
         const Edges hem = edges_between(m_pattern, p, next_edge(panel(p), a.last()), b.first),
                     cap = edges_between(m_pattern, p, next_edge(panel(p), b.last()), a.first);
         if (hem.empty() || cap.empty() || length_of(hem) < LEAST_SLEEVE_HEM * a.length ||
@@ -110,10 +116,12 @@ private:
         second = &b;
         sleeve.cap = cap;
       }
-    if (!first) return std::nullopt;
+    if (!first)
+      return std::nullopt;
     bool known = false, denied = false;
     for (const SeamGuess& g : m_guesses) {
-      if (!g.certain) continue;
+      if (!g.certain)
+        continue;
       const auto takes = [&](const SeamSide& s) {
         const auto has = [&](const std::vector<Run>& side) {
           return std::any_of(side.begin(), side.end(),
@@ -124,7 +132,8 @@ private:
       known = known || (takes(*first) && takes(*second));
       denied = denied || takes(*first) != takes(*second);
     }
-    if (denied) return std::nullopt;
+    if (denied)
+      return std::nullopt;
     if (!known) {
       Seam seam;
       seam.name = panel(p).name + "." + panel(p).edge(first->first).name + "-" +
@@ -143,7 +152,8 @@ private:
     double at = 0;
     for (std::size_t k = 0; k + 1 < rim.size(); ++k) {
       at += rim[k].length;
-      if (rim[k].seam_after >= 0 && rim[k].panel != rim[k + 1].panel) return at;
+      if (rim[k].seam_after >= 0 && rim[k].panel != rim[k + 1].panel)
+        return at;
     }
     return std::nullopt;
   }
@@ -187,7 +197,8 @@ private:
           points.push_back(arc.at(e.length * k / 16));
       at += e.length;
     }
-    if (points.size() < 3) return 0;
+    if (points.size() < 3)
+      return 0;
     const Vec2 chord = points.back() - points.front();
     double most = 0;
     for (const Vec2& p : points)
@@ -197,12 +208,14 @@ private:
 
   void set_in_sleeves() {
     std::vector<Sleeve> sleeves;
-    for (int p = 0; p < static_cast<int>(m_pattern.panels.size()); ++p)
+    for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
       if (!sewn_for_certain(p))
-        if (auto s = sleeve_of(p)) sleeves.push_back(*s);
+        if (auto s = sleeve_of(p))
+          sleeves.push_back(*s);
     for (std::size_t i = 0; i < sleeves.size(); ++i)
       for (std::size_t k = i + 1; k < sleeves.size(); ++k)
-        if (mirrored(sleeves[i].panel, sleeves[k].panel) && set_in(sleeves[i], sleeves[k])) return;
+        if (mirrored(sleeves[i].panel, sleeves[k].panel) && set_in(sleeves[i], sleeves[k]))
+          return;
   }
 
   bool set_in(const Sleeve& one, const Sleeve& other) {
@@ -218,14 +231,17 @@ private:
             rims[k].has(other.panel) || !alike(rims[i], rims[k]))
           continue;
         const double ease = std::log(cap / rims[i].length);
-        if (ease < LEAST_EASE || ease > MOST_EASE || std::abs(ease - USUAL_EASE) >= best) continue;
+        if (ease < LEAST_EASE || ease > MOST_EASE || std::abs(ease - USUAL_EASE) >= best)
+          continue;
         const Edges a = behind_longest_seam(m_pattern, rims[i], seams),
                     b = behind_longest_seam(m_pattern, rims[k], seams);
-        if (a.empty() || b.empty() || !shoulder_of(a) || !shoulder_of(b)) continue;
+        if (a.empty() || b.empty() || !shoulder_of(a) || !shoulder_of(b))
+          continue;
         best = std::abs(ease - USUAL_EASE);
         holes = {a, b};
       }
-    if (holes[0].empty()) return false;
+    if (holes[0].empty())
+      return false;
     const double shoulder[2] = {*shoulder_of(holes[0]), *shoulder_of(holes[1])};
     const double straight = mismatch(one.cap, holes[0], shoulder[0]) +
                             mismatch(other.cap, holes[1], shoulder[1]),
@@ -248,10 +264,11 @@ private:
 
   /// Whether they are mirror images, edge by edge.
   bool alike(const Rim& a, const Rim& b) const {
-    if (std::abs(std::log(a.length / b.length)) > SAME_RIM) return false;
+    if (std::abs(std::log(a.length / b.length)) > SAME_RIM)
+      return false;
     return std::all_of(a.edges.begin(), a.edges.end(), [&](const RimEdge& e) {
       const int n = static_cast<int>(panel(e.panel).loops[0].size());
-      const auto& mirrors = m_mirrors[static_cast<std::size_t>(e.panel)];
+      const auto& mirrors = m_mirrors[e.panel];
       return e.edge < n && std::any_of(mirrors.begin(), mirrors.end(), [&](const PanelMirror& m) {
                return std::any_of(b.edges.begin(), b.edges.end(), [&](const RimEdge& f) {
                  return f.panel == m.panel && f.edge == m.image(e.edge, n);
@@ -268,7 +285,8 @@ private:
   void add_sleeve(const Sleeve& sleeve, const Edges& rim, double shoulder, bool sure) {
     const double cap = length_of(sleeve.cap), hole = length_of(rim);
     const double split = crown(sleeve.cap, cap * (hole - shoulder) / hole);
-    if (sleeve.closure) add(*sleeve.closure, sure);
+    if (sleeve.closure)
+      add(*sleeve.closure, sure);
     const auto seam_of = [&](const char* which, double from, double to, double rim_from,
                              double rim_to) {
       Seam seam;

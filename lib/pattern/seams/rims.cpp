@@ -45,8 +45,9 @@ bool Rim::has(int panel) const {
 int next_edge(const Panel& panel, int edge) {
   int begin = 0;
   for (const auto& loop : panel.loops) {
-    const int n = static_cast<int>(loop.size());
-    if (edge < begin + n) return begin + (edge - begin + 1) % n;
+    const int n = std::ssize(loop);
+    if (edge < begin + n)
+      return begin + (edge - begin + 1) % n;
     begin += n;
   }
   return 0;
@@ -56,47 +57,53 @@ std::vector<Rim> rims_of(const Pattern& pattern, const std::vector<Seam>& seams)
   const std::map<EdgeKey, Crossing> crossings = crossings_of(seams);
   std::map<EdgeKey, bool> met;
   std::vector<Rim> rims;
-  for (int p = 0; p < static_cast<int>(pattern.panels.size()); ++p)
-    for (int first = 0; first < pattern.panels[static_cast<std::size_t>(p)].n_edges(); ++first) {
-      if (crossings.count({p, first}) || met[{p, first}]) continue;
+  for (int p = 0; p < std::ssize(pattern.panels); ++p)
+    for (int first = 0; first < pattern.panels[p].n_edges(); ++first) {
+      if (crossings.count({p, first}) || met[{p, first}])
+        continue;
       Rim rim;
       EdgeKey at{p, first};
       bool closed = true;
       do {
         met[at] = true;
-        const Panel& panel = pattern.panels[static_cast<std::size_t>(at.first)];
+        const Panel& panel = pattern.panels[at.first];
         rim.edges.push_back({at.first, at.second, length(panel.edge(at.second).path), -1});
         rim.length += rim.edges.back().length;
         EdgeKey next{at.first, next_edge(panel, at.second)};
         for (std::size_t hops = 0; crossings.count(next); ++hops) {
           const Crossing& crossing = crossings.at(next);
           closed = closed && crossing.begins && hops <= crossings.size();
-          if (!closed) break;
+          if (!closed)
+            break;
           rim.edges.back().seam_after = crossing.seam;
           const auto [other, edge] = crossing.beyond;
-          next = {other, next_edge(pattern.panels[static_cast<std::size_t>(other)], edge)};
+          next = {other, next_edge(pattern.panels[other], edge)};
         }
-        if (!closed) break;
+        if (!closed)
+          break;
         at = next;
         closed = !met[at] || at == EdgeKey{p, first};
       } while (closed && at != EdgeKey{p, first});
-      if (closed) rims.push_back(std::move(rim));
+      if (closed)
+        rims.push_back(std::move(rim));
     }
   return rims;
 }
 
 double length_of(const Edges& edges) {
   double sum = 0;
-  for (const RimEdge& e : edges) sum += e.length;
+  for (const RimEdge& e : edges)
+    sum += e.length;
   return sum;
 }
 
 Edges edges_between(const Pattern& pattern, int p, int first, int end) {
-  const Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
+  const Panel& panel = pattern.panels[p];
   Edges out;
   for (int e = first; e != end; e = next_edge(panel, e)) {
     out.push_back({p, e, length(panel.edge(e).path), -1});
-    if (out.size() > static_cast<std::size_t>(panel.n_edges())) return {};
+    if (out.size() > static_cast<std::size_t>(panel.n_edges()))
+      return {};
   }
   return out;
 }
@@ -106,21 +113,24 @@ Edges behind_longest_seam(const Pattern& pattern, const Rim& rim, const std::vec
   double longest = 0;
   for (std::size_t k = 0; k < rim.edges.size(); ++k) {
     const int s = rim.edges[k].seam_after;
-    if (s < 0) continue;
-    const double l = side_length(pattern, seams[static_cast<std::size_t>(s)].a);
+    if (s < 0)
+      continue;
+    const double l = side_length(pattern, seams[s].a);
     if (l > longest) {
       longest = l;
       last = k;
     }
   }
-  if (last == rim.edges.size()) return {};
+  if (last == rim.edges.size())
+    return {};
   Edges out(rim.edges.begin() + static_cast<long>(last) + 1, rim.edges.end());
   out.insert(out.end(), rim.edges.begin(), rim.edges.begin() + static_cast<long>(last) + 1);
   return out;
 }
 
 std::vector<Run> whole(Edges edges, bool with_outline) {
-  if (!with_outline) std::reverse(edges.begin(), edges.end());
+  if (!with_outline)
+    std::reverse(edges.begin(), edges.end());
   std::vector<Run> runs;
   for (const RimEdge& e : edges)
     runs.push_back({e.panel, e.edge, with_outline ? 0.0 : 1.0, with_outline ? 1.0 : 0.0});
@@ -144,7 +154,8 @@ std::vector<Run> stretch(const Edges& edges, double from, double to) {
 
 std::vector<Run> turned(std::vector<Run> runs) {
   std::reverse(runs.begin(), runs.end());
-  for (Run& r : runs) std::swap(r.from, r.to);
+  for (Run& r : runs)
+    std::swap(r.from, r.to);
   return runs;
 }
 
@@ -160,7 +171,8 @@ SeamGuess rim_guess(Seam seam, bool sure, double score) {
 bool touches(const Seam& seam, const std::set<int>& panels) {
   for (const auto* side : {&seam.a, &seam.b})
     for (const Run& r : *side)
-      if (panels.count(r.panel)) return true;
+      if (panels.count(r.panel))
+        return true;
   return false;
 }
 
@@ -168,7 +180,8 @@ bool takes_any(const Seam& seam, const Edges& edges) {
   for (const auto* side : {&seam.a, &seam.b})
     for (const Run& r : *side)
       for (const RimEdge& e : edges)
-        if (e.panel == r.panel && e.edge == r.edge) return true;
+        if (e.panel == r.panel && e.edge == r.edge)
+          return true;
   return false;
 }
 
@@ -177,15 +190,17 @@ std::vector<Seam> likely_seams(const std::vector<SeamGuess>& guesses,
   constexpr double LIKELY = 0.5;
   std::vector<Seam> out;
   for (const SeamGuess& g : guesses)
-    if (g.score >= LIKELY && !touches(g.seam, without)) out.push_back(g.seam);
+    if (g.score >= LIKELY && !touches(g.seam, without))
+      out.push_back(g.seam);
   return out;
 }
 
 bool is_certain(const std::vector<SeamGuess>& guesses, const std::vector<Seam>& seams,
                 const Edges& rim) {
   return std::all_of(rim.begin(), rim.end(), [&](const RimEdge& e) {
-    if (e.seam_after < 0) return true;
-    const std::string& name = seams[static_cast<std::size_t>(e.seam_after)].name;
+    if (e.seam_after < 0)
+      return true;
+    const std::string& name = seams[e.seam_after].name;
     return std::any_of(guesses.begin(), guesses.end(),
                        [&](const SeamGuess& g) { return g.certain && g.seam.name == name; });
   });
@@ -195,13 +210,16 @@ void drop_unsure(std::vector<SeamGuess>& guesses, const std::function<bool(const
   std::vector<int> now(guesses.size(), -1);
   std::vector<SeamGuess> kept;
   for (std::size_t k = 0; k < guesses.size(); ++k) {
-    if (!guesses[k].certain && fits(guesses[k].seam)) continue;
+    if (!guesses[k].certain && fits(guesses[k].seam))
+      continue;
     now[k] = static_cast<int>(kept.size());
     kept.push_back(std::move(guesses[k]));
   }
   for (SeamGuess& g : kept) {
-    if (g.twin >= 0) g.twin = now[static_cast<std::size_t>(g.twin)];
-    for (int& other : g.with) other = now[static_cast<std::size_t>(other)];
+    if (g.twin >= 0)
+      g.twin = now[g.twin];
+    for (int& other : g.with)
+      other = now[other];
     g.with.erase(std::remove(g.with.begin(), g.with.end(), -1), g.with.end());
   }
   guesses = std::move(kept);

@@ -45,7 +45,8 @@ SeamWitness::Odds SeamAssembly::look(const SeamTrees& trees,
 
 void SeamAssembly::commit(std::vector<double>& odds, const SidePair& pair) const {
   for (int k = 0; k < static_cast<int>(m_n); ++k)
-    for (int side : pair) odds[at(side, k)] = odds[at(k, side)] = NEVER;
+    for (int side : pair)
+      odds[at(side, k)] = odds[at(k, side)] = NEVER;
   odds[at(pair[0], pair[1])] = odds[at(pair[1], pair[0])] = SETTLED;
 }
 
@@ -55,30 +56,33 @@ SeamAssembly::Settled SeamAssembly::settle(const SeamTrees& trees, const SeamWit
   Settled out{keep, base.of_pair};
   for (const SidePair& pair : ban)
     out.odds[at(pair[0], pair[1])] = out.odds[at(pair[1], pair[0])] = NEVER;
-  for (const auto& [pair, odds] : keep) commit(out.odds, pair);
+  for (const auto& [pair, odds] : keep)
+    commit(out.odds, pair);
   SeamWitness::Odds odds = m_witness.sum_up(out.odds);
   for (std::size_t pass = 0; pass < m_n; ++pass) {
     std::vector<double> now = out.odds;
     std::vector<std::pair<double, SidePair>> open;
     for (const Pair& pair : m_pairs) {
       const double before = out.odds[at(pair.i, pair.j)];
-      if (before <= NEVER || out.at.count({pair.i, pair.j})) continue;
+      if (before <= NEVER || out.at.count({pair.i, pair.j}))
+        continue;
       Evidence evidence = pair.evidence;
       m_witness.second_look(static_cast<std::size_t>(pair.i), static_cast<std::size_t>(pair.j),
                             odds, evidence);
       const double own = trees(evidence) + prior(pair.i, pair.j);
       now[at(pair.i, pair.j)] = now[at(pair.j, pair.i)] = own;
-      if (own > WORTH_A_LOOK) open.push_back({-own, {pair.i, pair.j}});
+      if (own > WORTH_A_LOOK)
+        open.push_back({-own, {pair.i, pair.j}});
     }
-    if (open.empty()) break;
+    if (open.empty())
+      break;
     std::sort(open.begin(), open.end());
     odds = m_witness.sum_up(now);
     bool any = false;
-    const auto best = [&](int k) -> const std::array<double, 3>& {
-      return odds.best[static_cast<std::size_t>(k)];
-    };
+    const auto best = [&](int k) -> const std::array<double, 3>& { return odds.best[k]; };
     for (const auto& [cost, pair] : open) {
-      if (cost > open[0].first + BAND || cost > 0) break;
+      if (cost > open[0].first + BAND || cost > 0)
+        break;
       if (best(pair[0])[0] != -cost || best(pair[1])[0] != -cost ||
           !(-cost - std::max(best(pair[0])[1], best(pair[1])[1]) > CLEAR))
         continue;
@@ -88,8 +92,7 @@ SeamAssembly::Settled SeamAssembly::settle(const SeamTrees& trees, const SeamWit
     }
     if (!any) { // partners that are alike: one of them has to be the first
       const auto tie = std::find_if(open.begin(), open.end(), [&](const auto& item) {
-        return std::min(odds.mass[static_cast<std::size_t>(item.second[0])],
-                        odds.mass[static_cast<std::size_t>(item.second[1])]) > SEWN_AT_ALL;
+        return std::min(odds.mass[item.second[0]], odds.mass[item.second[1]]) > SEWN_AT_ALL;
       });
       if (tie == open.end()) {
         out.odds = std::move(now);
@@ -109,12 +112,11 @@ Evidence SeamAssembly::judged(const SeamWitness::Odds& base, const Settled& sett
   std::vector<char> taken(m_n, 0);
   for (const auto& [other, odds] : settled.at)
     if (other != pair)
-      taken[static_cast<std::size_t>(other[0])] = taken[static_cast<std::size_t>(other[1])] = 1;
+      taken[other[0]] = taken[other[1]] = 1;
   std::vector<double> odds = settled.odds;
   for (int k = 0; k < static_cast<int>(m_n); ++k)
     for (int side : pair)
-      odds[at(side, k)] = odds[at(k, side)] =
-          taken[static_cast<std::size_t>(k)] ? NEVER : base.of_pair[at(side, k)];
+      odds[at(side, k)] = odds[at(k, side)] = taken[k] ? NEVER : base.of_pair[at(side, k)];
   Evidence evidence{};
   const std::size_t i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
   m_witness.look(i, j, evidence);
@@ -129,7 +131,8 @@ Evidence SeamAssembly::judged(const SeamWitness::Odds& base, const Settled& sett
 
 SeamAssembly::Result SeamAssembly::run(const SeamModel& model) const {
   SeamWitness::Odds base = look(model.looks[0], nullptr);
-  for (std::size_t k = 1; k < model.looks.size(); ++k) base = look(model.looks[k], &base);
+  for (std::size_t k = 1; k < model.looks.size(); ++k)
+    base = look(model.looks[k], &base);
   PairOdds keep, verdicts;
   std::set<SidePair> ban;
   for (int round = 0;; ++round) {
@@ -140,10 +143,13 @@ SeamAssembly::Result SeamAssembly::run(const SeamModel& model) const {
     for (const auto& [pair, odds] : settled.at) {
       const double verdict = model.judge(judged(base, settled, pair)) + prior(pair[0], pair[1]);
       verdicts[pair] = verdict;
-      if (verdict < REFUSED) ban.insert(pair);
-      else if (verdict > KEPT) keep[pair] = odds;
+      if (verdict < REFUSED)
+        ban.insert(pair);
+      else if (verdict > KEPT)
+        keep[pair] = odds;
     }
-    if (ban.size() == banned || round == ROUNDS) break;
+    if (ban.size() == banned || round == ROUNDS)
+      break;
   }
   return {std::move(verdicts), std::move(base.of_pair)};
 }

@@ -76,20 +76,24 @@ constexpr double NONE_BEYOND = 9.0; // logarithm: nothing follows
 
 int bin(double x, ClueBounds bounds) {
   int k = 0;
-  for (double b : bounds) k += x > b;
+  for (double b : bounds)
+    k += x > b;
   return k;
 }
 
 /// 0 upright, 1 askew, 2 level and walked to the right (a lower edge), 3 to the left.
 int slope_of(const SeamSide& s) {
   const double up = std::abs(s.chord.y()), across = std::abs(s.chord.x());
-  if (up > 2 * across) return 0;
-  if (across > 2 * up) return s.chord.x() > 0 ? 2 : 3;
+  if (up > 2 * across)
+    return 0;
+  if (across > 2 * up)
+    return s.chord.x() > 0 ? 2 : 3;
   return 1;
 }
 
 int unordered(int a, int b) { // a, b < 5
-  if (a > b) std::swap(a, b);
+  if (a > b)
+    std::swap(a, b);
   return b * (b + 1) / 2 + a;
 }
 
@@ -104,8 +108,7 @@ SeamWitness::SeamWitness(const Pattern& pattern, const std::vector<SeamSide>& si
   for (const Panel& panel : pattern.panels)
     m_side_of.emplace_back(static_cast<std::size_t>(panel.n_edges()), -1);
   for (std::size_t k = 0; k < sides.size(); ++k)
-    m_side_of[static_cast<std::size_t>(sides[k].panel)][static_cast<std::size_t>(sides[k].first)] =
-        static_cast<int>(k);
+    m_side_of[sides[k].panel][sides[k].first] = static_cast<int>(k);
   for (const SeamSide& a : sides)
     m_rivals.push_back(
         static_cast<int>(std::count_if(sides.begin(), sides.end(), [&](const SeamSide& b) {
@@ -115,20 +118,23 @@ SeamWitness::SeamWitness(const Pattern& pattern, const std::vector<SeamSide>& si
 
 int SeamWitness::image(std::size_t k, const PanelMirror& mirror) const {
   const SeamSide& s = side(k);
-  if (s.loop_begin > 0) return -1;
+  if (s.loop_begin > 0)
+    return -1;
   const std::size_t other = static_cast<std::size_t>(mirror.image(s.last(), s.loop_size));
-  const int found = m_side_of[static_cast<std::size_t>(mirror.panel)][other];
+  const int found = m_side_of[mirror.panel][other];
   return found >= 0 && side(static_cast<std::size_t>(found)).count == s.count ? found : -1;
 }
 
 std::vector<std::array<int, 2>> SeamWitness::twins(std::size_t i, std::size_t j) const {
   std::vector<std::array<int, 2>> out;
   const int p = side(i).panel, q = side(j).panel;
-  for (const PanelMirror& a : m_mirrors[static_cast<std::size_t>(p)])
-    for (const PanelMirror& b : m_mirrors[static_cast<std::size_t>(q)]) {
-      if (p == q && (a.panel != b.panel || a.sum != b.sum)) continue;
+  for (const PanelMirror& a : m_mirrors[p])
+    for (const PanelMirror& b : m_mirrors[q]) {
+      if (p == q && (a.panel != b.panel || a.sum != b.sum))
+        continue;
       const int k = image(i, a), l = image(j, b);
-      if (k < 0 || l < 0 || k == l) continue;
+      if (k < 0 || l < 0 || k == l)
+        continue;
       const std::array<int, 2> pair{std::min(k, l), std::max(k, l)};
       if (pair == std::array<int, 2>{static_cast<int>(std::min(i, j)),
                                      static_cast<int>(std::max(i, j))} ||
@@ -142,7 +148,8 @@ std::vector<std::array<int, 2>> SeamWitness::twins(std::size_t i, std::size_t j)
 bool SeamWitness::look(std::size_t i, std::size_t j, Evidence& evidence) const {
   const SeamSide &a = side(i), &b = side(j);
   const double ratio = log_ratio(a, b);
-  if (ratio > MOST_UNEVEN) return false;
+  if (ratio > MOST_UNEVEN)
+    return false;
   const auto set = [&](Clue clue, int value) {
     evidence[static_cast<std::size_t>(clue)] = static_cast<std::uint8_t>(value);
   };
@@ -178,23 +185,29 @@ bool SeamWitness::look(std::size_t i, std::size_t j, Evidence& evidence) const {
   set(Clue::BEND_MORE, bend(std::max(a.bulge, b.bulge)));
   const bool adjacent = a.after == static_cast<int>(j) || b.after == static_cast<int>(i);
   const auto symmetric = [&](const SeamSide& s) {
-    for (const PanelMirror& m : m_mirrors[static_cast<std::size_t>(s.panel)])
-      if (m.panel == s.panel) return true;
+    for (const PanelMirror& m : m_mirrors[s.panel])
+      if (m.panel == s.panel)
+        return true;
     return false;
   };
   const int symmetry = static_cast<int>(symmetric(a)) + static_cast<int>(symmetric(b));
   set(Clue::SYMMETRY, symmetry);
   int kinship = 0;
-  if (adjacent) kinship = 1;
+  if (adjacent)
+    kinship = 1;
   else if (a.panel == b.panel) {
     kinship = 2;
-    for (const PanelMirror& m : m_mirrors[static_cast<std::size_t>(a.panel)])
-      if (m.panel == b.panel && image(i, m) == static_cast<int>(j)) kinship = 3;
+    for (const PanelMirror& m : m_mirrors[a.panel])
+      if (m.panel == b.panel && image(i, m) == static_cast<int>(j))
+        kinship = 3;
   } else
-    for (const PanelMirror& m : m_mirrors[static_cast<std::size_t>(a.panel)]) {
-      if (m.panel != b.panel) continue;
-      if (image(i, m) == static_cast<int>(j)) kinship = 5;
-      else if (kinship == 0) kinship = 4;
+    for (const PanelMirror& m : m_mirrors[a.panel]) {
+      if (m.panel != b.panel)
+        continue;
+      if (image(i, m) == static_cast<int>(j))
+        kinship = 5;
+      else if (kinship == 0)
+        kinship = 4;
     }
   set(Clue::KINSHIP, kinship);
   const double inside =
@@ -202,8 +215,10 @@ bool SeamWitness::look(std::size_t i, std::size_t j, Evidence& evidence) const {
   set(Clue::TIP, adjacent ? 1 + bin(inside, TIP_ANGLES) : 0);
   set(Clue::SLOPE, unordered(slope_of(a), slope_of(b)));
   const auto place = [&](const SeamSide& s) {
-    if (slope_of(s) < 2) return 0;
-    if (s.place.y() < LEVEL_LOW) return 1;
+    if (slope_of(s) < 2)
+      return 0;
+    if (s.place.y() < LEVEL_LOW)
+      return 1;
     return s.place.y() < LEVEL_HIGH ? 2 : 3;
   };
   set(Clue::PLACES, unordered(place(a), place(b)));
@@ -215,7 +230,8 @@ bool SeamWitness::look(std::size_t i, std::size_t j, Evidence& evidence) const {
   set(Clue::SIZE, bin(std::sqrt(a.length * b.length), SIZES));
   set(Clue::RIVALS, bin(std::max(m_rivals[i], m_rivals[j]), SIDE_RIVALS));
   const auto beyond = [&](int k, int l) {
-    if (k < 0 || l < 0) return NONE_BEYOND;
+    if (k < 0 || l < 0)
+      return NONE_BEYOND;
     return log_ratio(side(static_cast<std::size_t>(k)), side(static_cast<std::size_t>(l)));
   };
   const double before = beyond(a.before, b.after), after = beyond(a.after, b.before);
@@ -229,8 +245,10 @@ bool SeamWitness::look(std::size_t i, std::size_t j, Evidence& evidence) const {
       for (std::size_t k = 0; k < a.notches.size(); ++k)
         worst = std::max(worst,
                          std::abs(a.notches[k] - (b.length - b.notches[b.notches.size() - 1 - k])));
-      if (worst < NOTCHES_MEET_M) notches = 3;
-      else if (worst < NOTCHES_NEAR_M) notches = 2;
+      if (worst < NOTCHES_MEET_M)
+        notches = 3;
+      else if (worst < NOTCHES_NEAR_M)
+        notches = 2;
     }
   }
   set(Clue::NOTCHES, notches);
@@ -249,23 +267,27 @@ SeamWitness::Odds SeamWitness::sum_up(std::vector<double> of_pair) const {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       const double own = odds.of_pair[i * n + j];
-      if (own <= IMPOSSIBLE) continue;
+      if (own <= IMPOSSIBLE)
+        continue;
       const double p = 1 / (1 + std::exp(-own));
       const std::size_t from = static_cast<std::size_t>(side(i).panel),
                         to = static_cast<std::size_t>(side(j).panel);
       odds.to_panel[i * panels + to] += p;
       odds.between_panels[from * panels + to] += p;
       odds.mass[i] += p;
-      if (own > LEAST_ODDS) odds.partners[i].push_back(static_cast<int>(j));
+      if (own > LEAST_ODDS)
+        odds.partners[i].push_back(static_cast<int>(j));
       auto& best = odds.best[i];
-      if (own > best[2]) best[2] = own;
+      if (own > best[2])
+        best[2] = own;
       std::sort(best.rbegin(), best.rend());
     }
   return odds;
 }
 
 double SeamWitness::odds_of_neighbours(const Odds& odds, int i, int j) const {
-  if (i < 0 || j < 0 || i == j) return IMPOSSIBLE;
+  if (i < 0 || j < 0 || i == j)
+    return IMPOSSIBLE;
   return odds.of_pair[static_cast<std::size_t>(i) * m_sides.size() + static_cast<std::size_t>(j)];
 }
 
@@ -278,17 +300,21 @@ double SeamWitness::signed_ratio(int i, int j) const {
 /// other. Between them lie one more panel or two.
 SeamWitness::Meeting SeamWitness::meeting(const Odds& odds, int onward, int back) const {
   Meeting best;
-  if (onward < 0 || back < 0) return best;
-  for (int c : odds.partners[static_cast<std::size_t>(onward)]) {
+  if (onward < 0 || back < 0)
+    return best;
+  for (int c : odds.partners[onward]) {
     const double first = odds_of_neighbours(odds, onward, c);
     const int d = side(static_cast<std::size_t>(c)).after;
-    if (d < 0 || d == onward || c == back) continue;
+    if (d < 0 || d == onward || c == back)
+      continue;
     if (const double all = std::min(first, odds_of_neighbours(odds, d, back)); all > best.odds)
       best = {all, signed_ratio(d, back)};
-    if (first <= best.odds) continue;
-    for (int e : odds.partners[static_cast<std::size_t>(d)]) {
+    if (first <= best.odds)
+      continue;
+    for (int e : odds.partners[d]) {
       const int f = side(static_cast<std::size_t>(e)).after;
-      if (f < 0 || e == onward || f == onward || e == back) continue;
+      if (f < 0 || e == onward || f == onward || e == back)
+        continue;
       if (const double all =
               std::min({first, odds_of_neighbours(odds, d, e), odds_of_neighbours(odds, f, back)});
           all > best.odds)
@@ -314,7 +340,8 @@ void SeamWitness::second_look(std::size_t i, std::size_t j, const Odds& odds,
   set(Clue::SECOND, bin(std::max(next[0], next[1]), LEADS));
   const auto pairs = twins(i, j);
   double twin = IMPOSSIBLE;
-  for (const auto& [k, l] : pairs) twin = std::max(twin, odds_of_neighbours(odds, k, l));
+  for (const auto& [k, l] : pairs)
+    twin = std::max(twin, odds_of_neighbours(odds, k, l));
   set(Clue::TWIN, pairs.empty() ? 0 : 1 + bin(twin, PAIR_ODDS));
   const SeamSide &a = side(i), &b = side(j);
   const bool adjacent = a.after == static_cast<int>(j) || b.after == static_cast<int>(i);
@@ -329,13 +356,16 @@ void SeamWitness::second_look(std::size_t i, std::size_t j, const Odds& odds,
   // The seam that goes on has the panel on a's side first at the one end and second at the other.
   const double ratio = signed_ratio(static_cast<int>(i), static_cast<int>(j));
   double alike = NONE_BEYOND;
-  if (meets[0].odds > LEAST_ODDS) alike = std::min(alike, std::abs(ratio - meets[0].ratio));
-  if (meets[1].odds > LEAST_ODDS) alike = std::min(alike, std::abs(ratio + meets[1].ratio));
+  if (meets[0].odds > LEAST_ODDS)
+    alike = std::min(alike, std::abs(ratio - meets[0].ratio));
+  if (meets[1].odds > LEAST_ODDS)
+    alike = std::min(alike, std::abs(ratio + meets[1].ratio));
   set(Clue::GATHERING, bin(alike, GATHERINGS));
   set(Clue::SEWN, bin(std::min(odds.mass[i], odds.mass[j]), SEWN_CHANCES));
   double free = -NONE_BEYOND;
   for (int k : {a.before, a.after, b.before, b.after})
-    if (k >= 0) free = std::max(free, -odds.best[static_cast<std::size_t>(k)][0]);
+    if (k >= 0)
+      free = std::max(free, -odds.best[k][0]);
   set(Clue::FREE, bin(free, FREE_ODDS));
   const std::size_t p = static_cast<std::size_t>(a.panel), q = static_cast<std::size_t>(b.panel);
   const double more = odds.between_panels[p * panels + q] - odds.to_panel[i * panels + q] -

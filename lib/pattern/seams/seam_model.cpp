@@ -26,7 +26,8 @@ std::size_t read_node(const io::Json& list, std::size_t& at, std::vector<SeamTre
 SeamModel read_model() {
   const io::Json json = io::Json::parse(SEAM_MODEL);
   SeamModel model;
-  for (const io::Json& look : json.at("looks")) model.looks.push_back(read_trees(look));
+  for (const io::Json& look : json.at("looks"))
+    model.looks.push_back(read_trees(look));
   model.settle = read_trees(json.at("settle"));
   model.judge = read_trees(json.at("judge"));
   return model;
@@ -49,7 +50,7 @@ double SeamTrees::operator()(const Evidence& evidence) const {
   for (const std::vector<Node>& tree : trees) {
     std::size_t k = 0;
     while (tree[k].clue >= 0)
-      k = evidence[static_cast<std::size_t>(tree[k].clue)] > tree[k].at ? tree[k].second : k + 1;
+      k = evidence[tree[k].clue] > tree[k].at ? tree[k].second : k + 1;
     sum += tree[k].value;
   }
   return sum;

@@ -20,7 +20,8 @@ bool one_panel(const std::vector<Run>& side) {
 
 /// The panels of a seam between two, the lower number first.
 std::array<int, 2> panels_of(const Seam& seam) {
-  if (!one_panel(seam.a) || !one_panel(seam.b)) return {-1, -1};
+  if (!one_panel(seam.a) || !one_panel(seam.b))
+    return {-1, -1};
   return {std::min(seam.a[0].panel, seam.b[0].panel), std::max(seam.a[0].panel, seam.b[0].panel)};
 }
 
@@ -29,16 +30,18 @@ int edge_on(const Seam& seam, int panel) {
 }
 
 /// 1 where x, y, z come in that order around, -1 where they come the other way.
-int sense(int x, int y, int z) { return (x < y) + (y < z) + (z < x) == 2 ? 1 : -1; }
+int sense(int x, int y, int z) {
+  return (x < y) + (y < z) + (z < x) == 2 ? 1 : -1;
+}
 
 } // namespace
 
 bool in_order(const Pattern& pattern, const Seam& a, const Seam& b, const Seam& c) {
   const auto [p, q] = panels_of(a);
-  if (p < 0 || p == q || panels_of(b) != panels_of(a) || panels_of(c) != panels_of(a)) return true;
+  if (p < 0 || p == q || panels_of(b) != panels_of(a) || panels_of(c) != panels_of(a))
+    return true;
   for (const int panel : {p, q}) // of one loop
-    if (const int n =
-            static_cast<int>(pattern.panels[static_cast<std::size_t>(panel)].loops[0].size());
+    if (const int n = static_cast<int>(pattern.panels[panel].loops[0].size());
         std::max({edge_on(a, panel), edge_on(b, panel), edge_on(c, panel)}) >= n)
       return true;
   return sense(edge_on(a, p), edge_on(b, p), edge_on(c, p)) !=
@@ -57,13 +60,14 @@ bool closes_corner(const Pattern& pattern, const Seam& seam,
     return std::any_of(known.begin(), known.end(), [&](const Seam* s) {
       for (const auto* side : {&s->a, &s->b})
         for (const Run& r : *side)
-          if (r.panel == panel && r.edge == edge) return true;
+          if (r.panel == panel && r.edge == edge)
+            return true;
       return false;
     });
   };
   for (const auto* side : {&seam.a, &seam.b})
     for (const Run& r : *side) {
-      const Panel& panel = pattern.panels[static_cast<std::size_t>(r.panel)];
+      const Panel& panel = pattern.panels[r.panel];
       for (int e = 0; e < panel.n_edges(); ++e)
         if ((next_edge(panel, e) == r.edge && takes(r.panel, e)) ||
             (e == next_edge(panel, r.edge) && takes(r.panel, e)))
@@ -77,8 +81,10 @@ bool closes_corner(const Pattern& pattern, const Seam& seam,
 std::optional<std::array<Seam, 2>> exchanged(const Pattern& pattern, const Seam& one,
                                              const Seam& other) {
   Seam first = one, second = other;
-  if (one.a[0].panel == other.a[0].panel) std::swap(first.b, second.b);
-  else std::swap(first.b, second.a);
+  if (one.a[0].panel == other.a[0].panel)
+    std::swap(first.b, second.b);
+  else
+    std::swap(first.b, second.a);
   for (const Seam* s : {&first, &second})
     if (std::abs(std::log(side_length(pattern, s->a) / side_length(pattern, s->b))) > EXCHANGEABLE)
       return std::nullopt;
@@ -113,11 +119,13 @@ double turn_between(const Panel& panel, int edge, int next) {
 /// they are not next to each other.
 std::optional<double> turn_between(const Pattern& pattern, int p, const Seam& one,
                                    const Seam& other) {
-  const Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
+  const Panel& panel = pattern.panels[p];
   for (const Run& a : one.a[0].panel == p ? one.a : one.b)
     for (const Run& b : other.a[0].panel == p ? other.a : other.b) {
-      if (next_edge(panel, a.edge) == b.edge) return turn_between(panel, a.edge, b.edge);
-      if (next_edge(panel, b.edge) == a.edge) return turn_between(panel, b.edge, a.edge);
+      if (next_edge(panel, a.edge) == b.edge)
+        return turn_between(panel, a.edge, b.edge);
+      if (next_edge(panel, b.edge) == a.edge)
+        return turn_between(panel, b.edge, a.edge);
     }
   return std::nullopt;
 }
@@ -127,19 +135,22 @@ std::optional<double> turn_between(const Pattern& pattern, int p, const Seam& on
 void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
   const auto mirrors = panel_mirrors(pattern);
   const auto mirrored = [&](int p, int q) {
-    const auto& own = mirrors[static_cast<std::size_t>(p)];
+    const auto& own = mirrors[p];
     return std::any_of(own.begin(), own.end(), [&](const PanelMirror& m) { return m.panel == q; });
   };
   std::vector<Seam> known;
   for (const SeamGuess& g : guesses)
-    if (g.certain) known.push_back(g.seam);
+    if (g.certain)
+      known.push_back(g.seam);
   drop_unsure(guesses, [&](const Seam& seam) {
     const auto ends = panels_of(seam);
     const int p = ends[0];
     const int q = ends[1];
-    if (p < 0 || p == q || mirrored(p, q)) return false;
+    if (p < 0 || p == q || mirrored(p, q))
+      return false;
     return std::any_of(known.begin(), known.end(), [&](const Seam& other) {
-      if (panels_of(other) != panels_of(seam)) return false;
+      if (panels_of(other) != panels_of(seam))
+        return false;
       const auto a = turn_between(pattern, p, seam, other),
                  b = turn_between(pattern, q, seam, other);
       return a && b && *a + *b > BAG;
@@ -151,26 +162,32 @@ void settle_by_order(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
   for (std::size_t k = 0; k < guesses.size(); ++k) {
     SeamGuess& guess = guesses[k];
     const auto panels = panels_of(guess.seam);
-    if (guess.certain || guess.twin < 0 || panels[0] < 0 || panels[0] == panels[1]) continue;
-    SeamGuess& twin = guesses[static_cast<std::size_t>(guess.twin)];
-    if (twin.certain || panels_of(twin.seam) != panels) continue;
+    if (guess.certain || guess.twin < 0 || panels[0] < 0 || panels[0] == panels[1])
+      continue;
+    SeamGuess& twin = guesses[guess.twin];
+    if (twin.certain || panels_of(twin.seam) != panels)
+      continue;
     std::vector<const Seam*> known;
     for (const SeamGuess& g : guesses)
-      if (g.certain && panels_of(g.seam) == panels) known.push_back(&g.seam);
-    if (known.size() < 2 || closes_corner(pattern, guess.seam, known)) continue;
+      if (g.certain && panels_of(g.seam) == panels)
+        known.push_back(&g.seam);
+    if (known.size() < 2 || closes_corner(pattern, guess.seam, known))
+      continue;
     const auto fits = [&](const Seam& one, const Seam& other) {
       return in_order(pattern, *known[0], one, other) && in_order(pattern, *known[1], one, other);
     };
     double score = std::min(guess.score, twin.score);
     const auto swapped = exchanged(pattern, guess.seam, twin.seam);
     const bool twisted = !fits(guess.seam, twin.seam);
-    if (twisted && (!swapped || !fits((*swapped)[0], (*swapped)[1]))) continue;
+    if (twisted && (!swapped || !fits((*swapped)[0], (*swapped)[1])))
+      continue;
     bool rival = false;
     for (const SeamGuess* g : {&guess, &twin})
       for (const SeamGuess& other : g->instead) {
         const bool exchange = swapped && (same_sides((*swapped)[0], other.seam) ||
                                           same_sides((*swapped)[1], other.seam));
-        if (exchange) score = std::max(score, other.score);
+        if (exchange)
+          score = std::max(score, other.score);
         rival = rival || (!exchange && other.score >= UNLIKELY_RIVAL);
       }
     if (twisted) {
@@ -181,7 +198,8 @@ void settle_by_order(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
       guess.instead.clear();
       twin.instead.clear();
     }
-    if (score >= LIKELY_TWINS && !rival) guess.certain = twin.certain = true;
+    if (score >= LIKELY_TWINS && !rival)
+      guess.certain = twin.certain = true;
   }
 }
 

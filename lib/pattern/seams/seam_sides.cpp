@@ -38,7 +38,8 @@ int hand_of(const std::string& name) {
   const auto ends = [&](const std::string& t) {
     return name.size() > t.size() && name.compare(name.size() - t.size(), t.size(), t) == 0;
   };
-  if (ends("_l") || ends("_left") || ends(" L")) return 1;
+  if (ends("_l") || ends("_left") || ends(" L"))
+    return 1;
   return ends("_r") || ends("_right") || ends(" R") ? -1 : 0;
 }
 
@@ -51,14 +52,15 @@ double interior_angle(const Path& in, const Path& out) {
 } // namespace
 
 SeamSide measure_side(const Pattern& pattern, int panel_index, int first, int count) {
-  const Panel& panel = pattern.panels[static_cast<std::size_t>(panel_index)];
+  const Panel& panel = pattern.panels[panel_index];
   SeamSide side;
   side.panel = panel_index;
   side.first = first;
   side.count = count;
   for (const auto& loop : panel.loops) {
     side.loop_size = static_cast<int>(loop.size());
-    if (first < side.loop_begin + side.loop_size) break;
+    if (first < side.loop_begin + side.loop_size)
+      break;
     side.loop_begin += side.loop_size;
   }
   const auto edge_at = [&](int k) {
@@ -70,7 +72,8 @@ SeamSide measure_side(const Pattern& pattern, int panel_index, int first, int co
     const int e = edge_at(k);
     const double before = path.empty() ? 0 : length(path), own = length(panel.edge(e).path);
     for (const Notch& n : panel.notches)
-      if (n.edge == e) side.notches.push_back(before + n.at * own);
+      if (n.edge == e)
+        side.notches.push_back(before + n.at * own);
     const Path& next = panel.edge(e).path;
     path.insert(path.end(), next.begin(), next.end());
   }
@@ -82,8 +85,8 @@ SeamSide measure_side(const Pattern& pattern, int panel_index, int first, int co
   const Vec2 left = Vec2(-chord.y(), chord.x()) / std::max(chord.norm(), 1e-9);
   for (int k = 0; k < SeamSide::SAMPLES; ++k) {
     const Vec2 p = arc.at(side.length * (k + 1) / (SeamSide::SAMPLES + 1));
-    side.offset[static_cast<std::size_t>(k)] = (p - start).dot(left) / std::max(side.length, 1e-9);
-    side.bulge += side.offset[static_cast<std::size_t>(k)] / SeamSide::SAMPLES;
+    side.offset[k] = (p - start).dot(left) / std::max(side.length, 1e-9);
+    side.bulge += side.offset[k] / SeamSide::SAMPLES;
   }
   side.corner_start = interior_angle(panel.edge(edge_at(-1)).path, panel.edge(first).path);
   side.corner_end =
@@ -102,7 +105,8 @@ SeamSide measure_side(const Pattern& pattern, int panel_index, int first, int co
   side.place = (by_grain(panel.grain, arc.at(0.5 * side.length)) - low)
                    .cwiseQuotient((high - low).cwiseMax(1e-9));
   side.share = side.length / std::max(0.5 * around, 1e-9);
-  if (count == 1) side.name = base_name(panel.edge(first).name);
+  if (count == 1)
+    side.name = base_name(panel.edge(first).name);
   side.hand =
       hand_of(panel.edge(first).name) ? hand_of(panel.edge(first).name) : hand_of(panel.name);
   return side;
@@ -120,17 +124,19 @@ SideCorners all_corners(const Pattern& pattern) {
 std::vector<SeamSide> seam_sides(const Pattern& pattern, const SideCorners& corners,
                                  double shortest) {
   std::vector<SeamSide> sides;
-  for (int p = 0; p < static_cast<int>(pattern.panels.size()); ++p) {
+  for (int p = 0; p < std::ssize(pattern.panels); ++p) {
     int begin = 0;
-    for (const auto& loop : pattern.panels[static_cast<std::size_t>(p)].loops) {
-      const int n = static_cast<int>(loop.size());
+    for (const auto& loop : pattern.panels[p].loops) {
+      const int n = std::ssize(loop);
       std::vector<int> own; // of this loop
-      for (int c : corners[static_cast<std::size_t>(p)])
-        if (c >= begin && c < begin + n) own.push_back(c);
+      for (int c : corners[p])
+        if (c >= begin && c < begin + n)
+          own.push_back(c);
       for (std::size_t c = 0; c < own.size(); ++c) {
         const int to = c + 1 < own.size() ? own[c + 1] : own[0] + n;
         SeamSide side = measure_side(pattern, p, own[c], to - own[c]);
-        if (side.length >= shortest) sides.push_back(std::move(side));
+        if (side.length >= shortest)
+          sides.push_back(std::move(side));
       }
       begin += n;
     }
@@ -160,13 +166,15 @@ static void cut_unlike(const Pattern& pattern, SideCorners& corners) {
     return found;
   };
   for (const SeamSide& s : sides) {
-    if (s.count < 2 || !alike(s.length, s.panel, LIKE).empty()) continue;
+    if (s.count < 2 || !alike(s.length, s.panel, LIKE).empty())
+      continue;
     double best = 1e300;
     int at = -1;
     for (int k = 1; k < s.count; ++k) {
       const double first = measure_side(pattern, s.panel, s.first, k).length,
                    second = s.length - first;
-      if (std::min(first, second) < SHORTEST_PART) continue;
+      if (std::min(first, second) < SHORTEST_PART)
+        continue;
       if (alike(first, s.panel, LIKE_PART).empty() || alike(second, s.panel, LIKE_PART).empty())
         continue;
       if (const double off = std::abs(first - second); off < best) {
@@ -174,8 +182,9 @@ static void cut_unlike(const Pattern& pattern, SideCorners& corners) {
         at = k;
       }
     }
-    if (at < 0) continue;
-    auto& own = corners[static_cast<std::size_t>(s.panel)];
+    if (at < 0)
+      continue;
+    auto& own = corners[s.panel];
     own.push_back(s.loop_begin + (s.first - s.loop_begin + at) % s.loop_size);
     std::sort(own.begin(), own.end());
   }
@@ -187,14 +196,11 @@ SideCorners sharp_corners(const Pattern& pattern, double straight_on) {
     out.emplace_back();
     int begin = 0;
     for (const auto& loop : panel.loops) {
-      const int n = static_cast<int>(loop.size());
+      const int n = std::ssize(loop);
       std::vector<std::pair<double, int>> turns; // at the start of each edge, sharpest first
       for (int k = 0; k < n; ++k)
         turns.push_back(
-            {-std::abs(units::PI -
-                       interior_angle(loop[static_cast<std::size_t>((k + n - 1) % n)].path,
-                                      loop[static_cast<std::size_t>(k)].path)),
-             k});
+            {-std::abs(units::PI - interior_angle(loop[(k + n - 1) % n].path, loop[k].path)), k});
       std::stable_sort(turns.begin(), turns.end());
       std::size_t kept = 0;
       for (const auto& [turn, k] : turns)
@@ -227,8 +233,9 @@ std::vector<std::vector<PanelMirror>> panel_mirrors(const Pattern& pattern) {
   std::vector<std::vector<PanelMirror>> out(outlines.size());
   for (std::size_t p = 0; p < outlines.size(); ++p)
     for (std::size_t q = 0; q < outlines.size(); ++q) {
-      const int n = static_cast<int>(outlines[p].lengths.size());
-      if (outlines[q].lengths.size() != outlines[p].lengths.size()) continue;
+      const int n = std::ssize(outlines[p].lengths);
+      if (outlines[q].lengths.size() != outlines[p].lengths.size())
+        continue;
       for (int sum = 0; sum < n; ++sum) {
         const PanelMirror m{static_cast<int>(q), sum};
         bool same = true;
@@ -240,7 +247,8 @@ std::vector<std::vector<PanelMirror>> panel_mirrors(const Pattern& pattern) {
           same = std::abs(outlines[q].lengths[other] - l) < off &&
                  (b - Vec2(a.x(), -a.y())).norm() < 2 * off;
         }
-        if (same) out[p].push_back(m);
+        if (same)
+          out[p].push_back(m);
       }
     }
   return out;

@@ -15,11 +15,13 @@ ArmTube::ArmTube(const BodySpace& space, const Axis& axis, bool left, double low
   std::vector<Ring> skin(n, empty_ring());
   bool any = false;
   for (std::size_t v = 0; v < space.parts().size(); ++v) {
-    if (space.parts()[v] != (left ? Part::ARM_L : Part::ARM_R)) continue;
+    if (space.parts()[v] != (left ? Part::ARM_L : Part::ARM_R))
+      continue;
     const Vec3& p = space.body().skin.positions[v];
     const long row = std::lround((high - axis.height(p)) / ROW);
-    if (row < 0 || row >= static_cast<long>(n)) continue;
-    include(skin[static_cast<std::size_t>(row)], axis.plane(p));
+    if (row < 0 || row >= static_cast<long>(n))
+      continue;
+    include(skin[row], axis.plane(p));
     any = true;
   }
   if (!any)
@@ -38,9 +40,7 @@ ArmTube::Curve ArmTube::trace(std::size_t row, double grown) const {
   const Ring radius = radii(m_section[row], m_center[row], grown);
   Curve c;
   for (int k = -RING_ANGLES / 2; k <= RING_ANGLES / 2; ++k) {
-    c.points.push_back(m_center[row] +
-                       radius[static_cast<std::size_t>((k + RING_ANGLES) % RING_ANGLES)] *
-                           direction(k));
+    c.points.push_back(m_center[row] + radius[(k + RING_ANGLES) % RING_ANGLES] * direction(k));
     c.s.push_back(
         c.s.empty() ? 0 : c.s.back() + (c.points.back() - c.points[c.points.size() - 2]).norm());
   }
@@ -54,12 +54,14 @@ void ArmTube::shape(const std::vector<double>& widths, double gap) {
   for (std::size_t j = 0; j < n; ++j)
     for (int round = 0; round < 6; ++round) {
       const double missing = widths[j] + PANEL_GAP - trace(j, -less[j]).s.back();
-      if (missing < 1e-3) break;
+      if (missing < 1e-3)
+        break;
       less[j] -= missing / (2 * units::PI);
     }
   less = averaged(least(less, 4), 8);
   m_curves.clear();
-  for (std::size_t j = 0; j < n; ++j) m_curves.push_back(trace(j, -less[j]));
+  for (std::size_t j = 0; j < n; ++j)
+    m_curves.push_back(trace(j, -less[j]));
 }
 
 Vec2 ArmTube::on(const Curve& c, double u) {

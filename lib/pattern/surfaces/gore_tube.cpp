@@ -52,9 +52,8 @@ void GoreTube::trace(Row& row, const Ring& radius, double out, double fold) cons
     const double r =
         (1 - f) * radius[a] + f * radius[b] + out + fold * (1 - std::cos(FOLDS * angle));
     row.points.push_back(m_center + r * Vec2(std::sin(angle), std::cos(angle)));
-    row.s.push_back(k ? row.s.back() + (row.points[static_cast<std::size_t>(k)] -
-                                        row.points[static_cast<std::size_t>(k) - 1])
-                                           .norm()
+    row.s.push_back(k ? row.s.back() +
+                            (row.points[k] - row.points[static_cast<std::size_t>(k) - 1]).norm()
                       : 0);
   }
   row.length = row.s.back();
@@ -66,7 +65,8 @@ void GoreTube::spread(Row& row, double height) const {
   const std::size_t n = m_ring.gores.size();
   const std::vector<double> least = gaps(height);
   const auto main_from = [&](std::size_t k, std::size_t step) { // the next that is no godet
-    do k = (k + step) % n;
+    do
+      k = (k + step) % n;
     while (m_ring.gores[k].godet);
     return k;
   };
@@ -76,7 +76,8 @@ void GoreTube::spread(Row& row, double height) const {
     const Gore &a = m_ring.gores[k], &b = m_ring.gores[(k + 1) % n];
     const Gore &p = a.godet ? m_ring.gores[main_from(k, n - 1)] : a,
                &q = b.godet ? m_ring.gores[main_from(k, 1)] : b;
-    if (p.side != q.side || p.side == Side::RING) share[k] = a.godet || b.godet ? 0.5 : 1;
+    if (p.side != q.side || p.side == Side::RING)
+      share[k] = a.godet || b.godet ? 0.5 : 1;
     shares += share[k];
     cloth += 2 * a.half_width(height) + least[k];
   }
@@ -94,15 +95,19 @@ void GoreTube::spread(Row& row, double height) const {
     const double half = row.scale * g.half_width(height);
     row.middle[k] = s + half;
     s += 2 * half + row.scale * least[k] + open * share[k];
-    if (g.godet) continue;
+    if (g.godet)
+      continue;
     double wanted = g.theta;
-    if (g.side == Side::FRONT) wanted = 0;
-    if (g.side == Side::BACK) wanted = units::PI;
+    if (g.side == Side::FRONT)
+      wanted = 0;
+    if (g.side == Side::BACK)
+      wanted = units::PI;
     const double is = wanted - 2 * units::PI * row.middle[k] / row.length;
     off += std::max(half, 1e-3) * Vec2(std::cos(is), std::sin(is));
   }
   const double turn = std::atan2(off.y(), off.x()) / (2 * units::PI) * row.length;
-  for (double& m : row.middle) m += turn;
+  for (double& m : row.middle)
+    m += turn;
 }
 
 void GoreTube::shape(double gap, double upright_to) {
@@ -118,7 +123,8 @@ void GoreTube::shape(double gap, double upright_to) {
     trace(row, radius[j], 0, 0);
     for (std::size_t k = 0; k < m_ring.gores.size(); ++k)
       row.cloth += 2 * m_ring.gores[k].half_width(height(j));
-    for (double g : gaps(height(j))) row.cloth += g;
+    for (double g : gaps(height(j)))
+      row.cloth += g;
     mean[j] = row.length / (2 * units::PI);
     out[j] = std::max(0.0, (row.cloth - row.length) / (2 * units::PI));
   }
@@ -146,8 +152,10 @@ void GoreTube::shape(double gap, double upright_to) {
       trace(row, radius[j], out[j], high);
     }
     const double grown = j > 0 ? mean[j] + out[j] - mean[j - 1] - out[j - 1] : 0;
-    if (j == 0) row.y = m_ring.top;
-    else if (height(j) >= upright_to) row.y = height(j);
+    if (j == 0)
+      row.y = m_ring.top;
+    else if (height(j) >= upright_to)
+      row.y = height(j);
     else
       row.y = m_rows[j - 1].y - std::sqrt(std::max(STEP * STEP - grown * grown, 0.3 * STEP * STEP));
     spread(row, height(j));

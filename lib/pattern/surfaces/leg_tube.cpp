@@ -33,19 +33,20 @@ LegTube::LegTube(const BodySpace& space, bool left) : m_left(left) {
     const Part part = space.parts()[v];
     const Vec3& p = body.skin.positions[v];
     const Vec2 q(left ? p.x() : -p.x(), p.z());
-    if (p.y() < m_low) continue;
+    if (p.y() < m_low)
+      continue;
     const std::size_t k = bin(p.y());
     const bool own = part == (left ? Part::LEG_L : Part::LEG_R),
                leg = own || part == Part::LEG_L || part == Part::LEG_R;
-    if (part == Part::ARM_L || part == Part::ARM_R) m_arms[k].push_back(q);
-    if (!leg && part != Part::TORSO) continue;
+    if (part == Part::ARM_L || part == Part::ARM_R)
+      m_arms[k].push_back(q);
+    if (!leg && part != Part::TORSO)
+      continue;
     for (int d = 0; d < RING_ANGLES; ++d) {
       const double h = q.dot(direction(d));
-      m_trunk[k][static_cast<std::size_t>(d)] =
-          std::max(m_trunk[k][static_cast<std::size_t>(d)], h);
+      m_trunk[k][d] = std::max(m_trunk[k][d], h);
       if (own)
-        m_skin[k][static_cast<std::size_t>(d)] =
-            std::max(m_skin[k][static_cast<std::size_t>(d)], h);
+        m_skin[k][d] = std::max(m_skin[k][d], h);
     }
     if (leg) {
       any = any || own;
@@ -76,7 +77,7 @@ LegTube::LegTube(const BodySpace& space, bool left) : m_left(left) {
                  w = t * t * (3 - 2 * t);
     for (std::size_t d = 0; d < RING_ANGLES; ++d)
       m_leg[k][d] += w * std::max(m_trunk[k][d] - m_leg[k][d], 0.0);
-    const auto extent = [&](const Ring& h, int d) { return h[static_cast<std::size_t>(d)]; };
+    const auto extent = [&](const Ring& h, int d) { return h[d]; };
     const double high = extent(m_leg[k], RING_ANGLES / 4),
                  low = std::max(-extent(m_leg[k], 3 * RING_ANGLES / 4), m_middle);
     m_center.push_back(
@@ -119,8 +120,7 @@ void LegTube::outline(Curve& curve, double grown) const {
   for (int d = 0; d < RING_ANGLES; ++d) {
     const double across = -direction(d).x();
     if (across > 1e-6)
-      curve.radius[static_cast<std::size_t>(d)] =
-          std::min(curve.radius[static_cast<std::size_t>(d)], side / across);
+      curve.radius[d] = std::min(curve.radius[d], side / across);
   }
 }
 
@@ -144,7 +144,8 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
             ((back ? RING_ANGLES / 2 + reach + 1 : -reach - 1) + RING_ANGLES) % RING_ANGLES);
         const bool clipped = c.radius[d] * -direction(static_cast<int>(d)).x() >
                              c.center.x() - m_middle - MIDDLE_CLEAR - 1e-9;
-        if (clipped && (c.y > m_crotch - 0.01 || c.radius[d] < skin[d])) break;
+        if (clipped && (c.y > m_crotch - 0.01 || c.radius[d] < skin[d]))
+          break;
       }
       (back ? back_reach : front_reach)[j] = std::max(reach - 0.5, 0.0);
     }
@@ -166,10 +167,8 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
       const double angle = 2 * units::PI * x / RING_ANGLES;
       c.points.push_back(c.center + ((1 - f) * c.radius[a] + f * c.radius[b]) *
                                         Vec2(std::sin(angle), std::cos(angle)));
-      c.s.push_back(k ? c.s.back() + (c.points[static_cast<std::size_t>(k)] -
-                                      c.points[static_cast<std::size_t>(k) - 1])
-                                         .norm()
-                      : 0);
+      c.s.push_back(
+          k ? c.s.back() + (c.points[k] - c.points[static_cast<std::size_t>(k) - 1]).norm() : 0);
     }
   };
   const auto wanted = [&](std::size_t j) {
@@ -179,13 +178,16 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
     for (int round = 0; round < 6; ++round) {
       trace(j);
       const double missing = wanted(j) - m_curves[j].s.back();
-      if (missing < 1e-3) break;
+      if (missing < 1e-3)
+        break;
       grown[j] = std::min(grown[j] + missing / units::PI, 0.5);
     }
   std::vector<double> most = grown;
-  for (double& g : most) g = -g;
+  for (double& g : most)
+    g = -g;
   most = least(most, 4);
-  for (double& g : most) g = -g;
+  for (double& g : most)
+    g = -g;
   grown = averaged(most, 8);
   for (std::size_t j = 0; j < n; ++j) {
     trace(j);
@@ -203,11 +205,15 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
 
 Vec3 LegTube::on(const Curve& c, Side side, double t, double out) const {
   double s = 0;
-  if (side == Side::FRONT) s = c.seam - 0.5 * c.outer_gap - c.scale * (c.cloth.front.out - t);
-  else if (side == Side::BACK) s = c.seam + 0.5 * c.outer_gap + c.scale * (c.cloth.back.out - t);
-  else s = 0.5 * (c.s.back() - c.scale * c.cloth.ring.width()) + c.scale * (t - c.cloth.ring.in);
+  if (side == Side::FRONT)
+    s = c.seam - 0.5 * c.outer_gap - c.scale * (c.cloth.front.out - t);
+  else if (side == Side::BACK)
+    s = c.seam + 0.5 * c.outer_gap + c.scale * (c.cloth.back.out - t);
+  else
+    s = 0.5 * (c.s.back() - c.scale * c.cloth.ring.width()) + c.scale * (t - c.cloth.ring.in);
   Vec2 p;
-  if (s <= 0) p = c.points.front() + s * (c.points[1] - c.points[0]).normalized();
+  if (s <= 0)
+    p = c.points.front() + s * (c.points[1] - c.points[0]).normalized();
   else if (s >= c.s.back())
     p = c.points.back() +
         (s - c.s.back()) * (c.points.back() - c.points[c.points.size() - 2]).normalized();
@@ -218,7 +224,8 @@ Vec3 LegTube::on(const Curve& c, Side side, double t, double out) const {
     p = c.points[k - 1] +
         (span > 0 ? (s - c.s[k - 1]) / span : 0.0) * (c.points[k] - c.points[k - 1]);
   }
-  if (out != 0) p += out * (p - c.center).normalized();
+  if (out != 0)
+    p += out * (p - c.center).normalized();
   return {m_left ? p.x() : -p.x(), c.y, p.y()};
 }
 

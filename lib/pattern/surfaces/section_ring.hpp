@@ -30,16 +30,16 @@ Ring radii(const Ring& support, const Vec2& center, double grown);
 /// Weighted mean with the neighbours up to `reach` to both sides; the ends repeat.
 template<class T> std::vector<T> averaged(const std::vector<T>& in, int reach) {
   std::vector<T> out = in;
-  const int n = static_cast<int>(in.size());
+  const int n = std::ssize(in);
   for (int k = 0; k < n; ++k) {
     T sum = in[0] * 0.0;
     double weight = 0;
     for (int o = -reach; o <= reach; ++o) {
       const double w = 1 + reach - std::abs(o);
-      sum = sum + w * in[static_cast<std::size_t>(std::clamp(k + o, 0, n - 1))];
+      sum = sum + w * in[std::clamp(k + o, 0, n - 1)];
       weight += w;
     }
-    out[static_cast<std::size_t>(k)] = sum * (1 / weight);
+    out[k] = sum * (1 / weight);
   }
   return out;
 }

@@ -15,7 +15,8 @@ class Shapes {
 public:
   Shapes() = default;
   ~Shapes() {
-    for (GEOSGeometry* g : m_all) GEOSGeom_destroy_r(m_context, g);
+    for (GEOSGeometry* g : m_all)
+      GEOSGeom_destroy_r(m_context, g);
     GEOS_finish_r(m_context);
   }
   Shapes(const Shapes&) = delete;
@@ -38,7 +39,8 @@ public:
   GEOSGeometry* below(double z) {
     GEOSCoordSequence* c = GEOSCoordSeq_create_r(m_context, 5, 2);
     const double x[5] = {-FAR, FAR, FAR, -FAR, -FAR}, y[5] = {-FAR, -FAR, z, z, -FAR};
-    for (unsigned k = 0; k < 5; ++k) GEOSCoordSeq_setXY_r(m_context, c, k, x[k], y[k]);
+    for (unsigned k = 0; k < 5; ++k)
+      GEOSCoordSeq_setXY_r(m_context, c, k, x[k], y[k]);
     return keep(
         GEOSGeom_createPolygon_r(m_context, GEOSGeom_createLinearRing_r(m_context, c), nullptr, 0));
   }
@@ -60,7 +62,8 @@ public:
     for (std::size_t k = 0; k < points.size(); ++k)
       area += points[k].x() * points[(k + 1) % points.size()].y() -
               points[k].y() * points[(k + 1) % points.size()].x();
-    if (area < 0) std::reverse(points.begin(), points.end());
+    if (area < 0)
+      std::reverse(points.begin(), points.end());
     return points;
   }
 
@@ -95,13 +98,16 @@ WrapCurve WrapCurve::front_of(const std::vector<Vec2>& points, double gap, doubl
   std::size_t right = 0, left = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const auto score = [&](const Vec2& p, double sign) { return sign * p.x() + p.y(); };
-    if (score(ring[k], 1) > score(ring[right], 1)) right = k;
-    if (score(ring[k], -1) > score(ring[left], -1)) left = k;
+    if (score(ring[k], 1) > score(ring[right], 1))
+      right = k;
+    if (score(ring[k], -1) > score(ring[left], -1))
+      left = k;
   }
   WrapCurve out;
   for (std::size_t k = right;; k = (k + 1) % ring.size()) {
     out.m_points.push_back(ring[k]);
-    if (k == left) break;
+    if (k == left)
+      break;
   }
   std::reverse(out.m_points.begin(), out.m_points.end()); // x grows
   out.measure();
@@ -126,7 +132,8 @@ WrapCurve WrapCurve::around(const std::vector<Vec2>& points, double gap, double 
     std::reverse(out.m_points.begin(), out.m_points.end()); // from the front towards +x
     out.m_points.push_back(out.m_points.front());
     out.measure();
-    if (out.length() >= length) break;
+    if (out.length() >= length)
+      break;
     gap += (length - out.length()) / (2 * 3.14159265358979) + 1e-5;
   }
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -138,7 +145,8 @@ WrapCurve WrapCurve::around(const std::vector<Vec2>& points, double gap, double 
   double best = -1e300;
   for (std::size_t k = 0; k + 1 < out.m_points.size(); ++k) {
     const Vec2 &a = out.m_points[k], &b = out.m_points[k + 1];
-    if ((a.x() <= x) == (b.x() <= x)) continue;
+    if ((a.x() <= x) == (b.x() <= x))
+      continue;
     const double t = (x - a.x()) / (b.x() - a.x()), z = a.y() + t * (b.y() - a.y());
     if (z > best) {
       best = z;
@@ -150,8 +158,10 @@ WrapCurve WrapCurve::around(const std::vector<Vec2>& points, double gap, double 
 
 Vec2 WrapCurve::at(double u) const {
   double s = m_origin + u;
-  if (m_closed) s -= std::floor(s / length()) * length();
-  if (s <= 0) return m_points.front() + s * (m_points[1] - m_points[0]).normalized();
+  if (m_closed)
+    s -= std::floor(s / length()) * length();
+  if (s <= 0)
+    return m_points.front() + s * (m_points[1] - m_points[0]).normalized();
   if (s >= length())
     return m_points.back() +
            (s - length()) * (m_points.back() - m_points[m_points.size() - 2]).normalized();

@@ -42,7 +42,8 @@ io::Json path_json(const Path& path, double unit) {
 double exact_degrees(double angle) {
   const double d = units::degrees(angle);
   for (double near : {d, std::nextafter(d, 1e9), std::nextafter(d, -1e9)})
-    if (units::radians(near) == angle) return near;
+    if (units::radians(near) == angle)
+      return near;
   return d;
 }
 
@@ -120,18 +121,24 @@ std::string about_seam(const Seam& seam) {
 /// Notches read from a DXF keep their layer, which tells their shape.
 int notch_layer(const Notch& notch) {
   for (int layer : {80, 81, 82, 83})
-    if (notch.kind == "layer " + std::to_string(layer)) return layer;
+    if (notch.kind == "layer " + std::to_string(layer))
+      return layer;
   return 4;
 }
 
 std::string escaped(const std::string& text) {
   std::string out;
   for (char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -156,12 +163,16 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
                       {"grain", io::to_json(p.grain)}};
     if (p.loops.size() > 1) {
       io::Json holes = io::Json::array();
-      for (std::size_t k = 1; k < p.loops.size(); ++k) holes.push_back(loop_json(p.loops[k], unit));
+      for (std::size_t k = 1; k < p.loops.size(); ++k)
+        holes.push_back(loop_json(p.loops[k], unit));
       panel["holes"] = holes;
     }
-    if (!p.material.empty()) panel["material"] = p.material;
-    if (p.layer) panel["layer"] = p.layer;
-    if (!p.label.empty()) panel["label"] = p.label;
+    if (!p.material.empty())
+      panel["material"] = p.material;
+    if (p.layer)
+      panel["layer"] = p.layer;
+    if (!p.label.empty())
+      panel["label"] = p.label;
     if (!p.notches.empty()) {
       io::Json notches = io::Json::array();
       for (const Notch& n : p.notches)
@@ -184,28 +195,35 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
       io::Json pleats = io::Json::array();
       for (const Pleat& pleat : p.pleats) {
         io::Json edges = io::Json::array();
-        for (int e : pleat.edges) edges.push_back(p.edge(e).name);
+        for (int e : pleat.edges)
+          edges.push_back(p.edge(e).name);
         pleats.push_back({{"name", pleat.name},
-                          {"fold", p.lines[static_cast<std::size_t>(pleat.fold)].name},
-                          {"target", p.lines[static_cast<std::size_t>(pleat.target)].name},
+                          {"fold", p.lines[pleat.fold].name},
+                          {"target", p.lines[pleat.target].name},
                           {"edges", edges}});
       }
       panel["pleats"] = pleats;
     }
     io::Json place = io::Json::object();
-    if (!p.hint.part.empty()) place["part"] = p.hint.part;
-    if (p.hint.theta) place["theta_deg"] = exact_degrees(*p.hint.theta);
-    if (p.hint.radius) place["radius"] = rounded(*p.hint.radius, unit);
+    if (!p.hint.part.empty())
+      place["part"] = p.hint.part;
+    if (p.hint.theta)
+      place["theta_deg"] = exact_degrees(*p.hint.theta);
+    if (p.hint.radius)
+      place["radius"] = rounded(*p.hint.radius, unit);
     if (p.hint.anchor)
       place["anchor"] = {rounded(p.hint.anchor->x(), unit), rounded(p.hint.anchor->y(), unit)};
-    if (p.hint.height) place["height"] = rounded(*p.hint.height, unit);
+    if (p.hint.height)
+      place["height"] = rounded(*p.hint.height, unit);
     if (p.hint.rigid) {
       io::Json rigid = io::Json::array();
       for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 4; ++c) rigid.push_back((*p.hint.rigid)(r, c) / (c == 3 ? unit : 1));
+        for (int c = 0; c < 4; ++c)
+          rigid.push_back((*p.hint.rigid)(r, c) / (c == 3 ? unit : 1));
       place["rigid"] = rigid;
     }
-    if (!place.empty()) panel["place"] = place;
+    if (!place.empty())
+      panel["place"] = place;
     panels.push_back(panel);
   }
   for (const Seam& s : pattern.seams) {
@@ -213,7 +231,7 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
     for (const auto* side : {&s.a, &s.b}) {
       io::Json runs = io::Json::array();
       for (const Run& r : *side) {
-        const Panel& panel = pattern.panels[static_cast<std::size_t>(r.panel)];
+        const Panel& panel = pattern.panels[r.panel];
         runs.push_back({{"panel", panel.name},
                         {"edge", panel.edge(r.edge).name},
                         {"from", r.from},
@@ -221,8 +239,10 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
       }
       seam[side == &s.a ? "a" : "b"] = runs;
     }
-    if (!s.ease.empty()) seam["ease"] = s.ease;
-    if (s.open) seam["open"] = true;
+    if (!s.ease.empty())
+      seam["ease"] = s.ease;
+    if (s.open)
+      seam["open"] = true;
     seams.push_back(seam);
   }
   doc["panels"] = panels;
@@ -248,7 +268,8 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
     out.point(Vec2(0, 0));
     out.text(1, Vec2(0, 0), "Piece Name: " + panel.name);
     out.text(1, Vec2(0, 0), "Quantity: 1");
-    if (!panel.material.empty()) out.text(1, Vec2(0, 0), "Material: " + panel.material);
+    if (!panel.material.empty())
+      out.text(1, Vec2(0, 0), "Material: " + panel.material);
     int e = 0;
     for (std::size_t l = 0; l < panel.loops.size(); ++l) {
       std::vector<Vec2> ring, turns, curve;
@@ -261,7 +282,8 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
               s.line ? 1 : std::max(1, static_cast<int>(std::ceil(s.length(0, 1) / DXF_CHORD)));
           for (int k = 0; k < n; ++k) {
             ring.push_back(s.at(static_cast<double>(k) / n));
-            if (k > 0 || &s != &edge.path.front()) curve.push_back(ring.back());
+            if (k > 0 || &s != &edge.path.front())
+              curve.push_back(ring.back());
           }
         }
         std::string said = "RUN " + word(edge.name);
@@ -269,7 +291,8 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
           for (const auto* side : {&seam.a, &seam.b})
             for (std::size_t k = 0; k < side->size(); ++k) {
               const Run& run = (*side)[k];
-              if (run.panel != static_cast<int>(p) || run.edge != e) continue;
+              if (run.panel != static_cast<int>(p) || run.edge != e)
+                continue;
               if (std::min(run.from, run.to) > 0 || std::max(run.from, run.to) < 1) {
                 left_out.push_back("seam " + seam.name + ": only part of " +
                                    place_of(pattern, run) + " is sewn, which layer 15 cannot say");
@@ -282,11 +305,15 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
         texts.push_back({arc.at(0.5 * arc.length()), said});
         ++e;
       }
-      if (l == 0) out.ring(1, ring);
+      if (l == 0)
+        out.ring(1, ring);
       out.ring(l == 0 ? 14 : 11, ring);
-      for (const Vec2& q : turns) out.mark(2, q);
-      for (const Vec2& q : curve) out.mark(3, q);
-      for (const auto& [at, said] : texts) out.text(15, at, said);
+      for (const Vec2& q : turns)
+        out.mark(2, q);
+      for (const Vec2& q : curve)
+        out.mark(3, q);
+      for (const auto& [at, said] : texts)
+        out.text(15, at, said);
     }
     for (const Notch& n : panel.notches) {
       const ArcLength arc(panel.edge(n.edge).path);
@@ -303,10 +330,11 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
       const bool bent = line.path.size() > 1 || !line.path[0].line;
       const int n = bent ? std::max(1, static_cast<int>(std::ceil(arc.length() / DXF_CHORD))) : 1;
       std::vector<Vec2> points;
-      for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
+      for (int k = 0; k <= n; ++k)
+        points.push_back(arc.at(arc.length() * k / n));
       out.chain(8, points);
       const auto uses = [&](const Pleat& pleat) {
-        return &panel.lines[static_cast<std::size_t>(pleat.fold)] == &line;
+        return &panel.lines[pleat.fold] == &line;
       }; // pleats are told below
       if (line.kind == "fold" && std::none_of(panel.pleats.begin(), panel.pleats.end(), uses))
         left_out.push_back(panel.name + ": line " + line.name +
@@ -370,15 +398,18 @@ std::string pattern_svg(const Pattern& pattern) {
     };
     std::string fill;
     for (const auto& loop : panel.loops) {
-      for (std::size_t k = 0; k < loop.size(); ++k) fill += path(loop[k].path, k == 0) + " ";
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        fill += path(loop[k].path, k == 0) + " ";
       fill += "Z ";
     }
     body += "<g id=\"" + escaped(panel.name) + "\">\n<path d=\"" + fill +
             "\" fill=\"#f4f1ea\" fill-rule=\"evenodd\"/>\n";
     for (const InnerLine& line : panel.lines) {
       std::string dashes = "1 4";
-      if (line.kind == "fold") dashes = "8 4";
-      if (line.kind == "tape") dashes = "2 2";
+      if (line.kind == "fold")
+        dashes = "8 4";
+      if (line.kind == "tape")
+        dashes = "2 2";
       body += "<path d=\"" + path(line.path, true) +
               "\" fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"" + dashes +
               "\"/>\n";

@@ -11,7 +11,7 @@ using namespace sloper::body;
 namespace {
 
 void append(TriangleMesh& mesh, const TriangleMesh& other) {
-  const int first = static_cast<int>(mesh.positions.size());
+  const int first = std::ssize(mesh.positions);
   mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
   for (const Triangle& t : other.triangles)
     mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
@@ -19,7 +19,8 @@ void append(TriangleMesh& mesh, const TriangleMesh& other) {
 
 void add_ellipsoid(TriangleMesh& mesh, const Vec3& center, const Vec3& radii) {
   TriangleMesh shape = shapes::sphere(3);
-  for (Vec3& p : shape.positions) p = center + p.cwiseProduct(radii);
+  for (Vec3& p : shape.positions)
+    p = center + p.cwiseProduct(radii);
   append(mesh, shape);
 }
 
@@ -40,7 +41,8 @@ void add_curtain(TriangleMesh& mesh, const Vec3& top, double width, double lengt
 
 int count(const Body& body, const std::string& id) {
   int n = 0;
-  for (const Finding& f : body.scan.findings) n += f.id == id;
+  for (const Finding& f : body.scan.findings)
+    n += f.id == id;
   return n;
 }
 
@@ -103,8 +105,9 @@ TEST(LooseParts, faces_with_corners_of_their_own_are_one_shell) {
   const TriangleMesh& plain = test::mannequin("f-165-a").mesh;
   TriangleMesh soup;
   for (const Triangle& t : plain.triangles) {
-    const int first = static_cast<int>(soup.positions.size());
-    for (const int v : t) soup.positions.push_back(plain.positions[v]);
+    const int first = std::ssize(soup.positions);
+    for (const int v : t)
+      soup.positions.push_back(plain.positions[v]);
     soup.triangles.push_back({first, first + 1, first + 2});
   }
   const LooseParts parts = find_loose_parts(soup, "auto");

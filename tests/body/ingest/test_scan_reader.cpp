@@ -27,7 +27,8 @@ std::string binary_ply() {
     put(-1.5f);
   }
   put(static_cast<unsigned char>(4));
-  for (int k = 0; k < 4; ++k) put(k);
+  for (int k = 0; k < 4; ++k)
+    put(k);
   return bytes;
 }
 
@@ -186,7 +187,8 @@ TEST(ScanReader, other_formats_come_through_assimp_without_holes_at_seams) {
   const TriangleMesh split = read_scan(gltf.path).mesh;
   EXPECT_EQ(split.positions.size(), 4u);
   EXPECT_EQ(split.triangles.size(), 2u);
-  for (const Vec3& p : split.positions) EXPECT_GE(p.y(), 2);
+  for (const Vec3& p : split.positions)
+    EXPECT_GE(p.y(), 2);
 }
 
 TEST(ScanReader, what_assimp_cannot_read_is_refused_with_what_to_do) {
@@ -214,7 +216,8 @@ TEST(ScanReader, a_broken_3ds_is_refused) {
   EXPECT_NE(complaint([] { parse_3ds("v 0 0 0\nv 1 0 0\n", "a.3ds"); }).find("3DS"),
             std::string::npos);
   std::string nested;
-  for (int k = 0; k < 2000; ++k) nested = chunk(0x4D4D, nested);
+  for (int k = 0; k < 2000; ++k)
+    nested = chunk(0x4D4D, nested);
   complaint([&] { parse_3ds(nested, "a.3ds"); });
 }
 

@@ -15,7 +15,8 @@ TriangleMesh above(const samples::MadeMannequin& figure, double height, bool kee
   TriangleMesh torso;
   for (std::size_t v = 0; v < number.size(); ++v) {
     const bool arm = figure.parts[v] == 2 || figure.parts[v] == 3;
-    if (figure.mesh.positions[v].y() < height && !(arm && keeps_arms)) continue;
+    if (figure.mesh.positions[v].y() < height && !(arm && keeps_arms))
+      continue;
     number[v] = static_cast<int>(torso.positions.size());
     torso.positions.push_back(figure.mesh.positions[v]);
   }
@@ -96,6 +97,7 @@ TEST(TorsoOnly, what_has_no_head_is_refused) {
   TriangleMesh legs;
   const samples::MadeMannequin& figure = test::mannequin("f-165-a");
   for (const Vec3& p : figure.mesh.positions)
-    if (p.y() < 0.7) legs.positions.push_back(p);
+    if (p.y() < 0.7)
+      legs.positions.push_back(p);
   EXPECT_THROW(test::measure(legs, torso_only()), Error);
 }

@@ -59,7 +59,8 @@ namespace {
 /// Of the mannequin's own vertical, turned by `turn`: the angle to what is found, rad.
 double missed_by(const Eigen::Matrix3d& turn, bool given) {
   ScanOptions options;
-  if (given) options.up = "y";
+  if (given)
+    options.up = "y";
   const Body body =
       test::measure(test::moved(test::mannequin("f-165-a").mesh, turn, Vec3::Zero()), options).body;
   const Vec3 up = body.scan_to_body.block<1, 3>(1, 0).transpose().normalized();
@@ -86,7 +87,8 @@ TEST(Vertical, that_was_given_is_kept) {
 TEST(Vertical, of_the_file_stays_where_a_person_bends_over_level_soles) {
   TriangleMesh bent = test::mannequin("f-165-a").mesh;
   for (Vec3& p : bent.positions) // from the ankles up, which leaves the soles as they are
-    if (p.y() > 0.12) p.z() += 0.08 * (p.y() - 0.12);
+    if (p.y() > 0.12)
+      p.z() += 0.08 * (p.y() - 0.12);
   const Body body = test::measure(bent).body;
   EXPECT_NEAR((body.scan_to_body.block<1, 3>(1, 0).normalized() - Vec3::UnitY().transpose()).norm(),
               0, 1e-6);

@@ -15,7 +15,8 @@ std::string document(const std::string& points) {
   const std::size_t n = shape_feature_names().size();
   auto row = [&](const std::string& first) {
     std::string text = "[" + first;
-    for (std::size_t k = 1; k < n; ++k) text += ",0";
+    for (std::size_t k = 1; k < n; ++k)
+      text += ",0";
     return text + "]";
   };
   std::string text = R"({"format": "landmark-corrections", "version": 1, "features": [)";
@@ -32,7 +33,8 @@ std::string document(const std::string& points) {
 
 std::string weights(const std::string& bias, const std::string& first) {
   std::string text = "[" + bias + "," + first;
-  for (std::size_t k = 1; k < shape_feature_names().size(); ++k) text += ",0";
+  for (std::size_t k = 1; k < shape_feature_names().size(); ++k)
+    text += ",0";
   return text + "]";
 }
 

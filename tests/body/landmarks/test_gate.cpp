@@ -71,7 +71,8 @@ TEST(Size, is_the_likeliest_of_units_and_stature_and_is_told_where_it_is_doubtfu
   const TriangleMesh& mesh = test::mannequin("f-165-a").mesh; // 1.65 m
   auto unit_finding = [](const Body& body) {
     for (const Finding& finding : body.scan.findings)
-      if (finding.what.rfind("unit ", 0) == 0) return finding;
+      if (finding.what.rfind("unit ", 0) == 0)
+        return finding;
     return Finding{};
   };
   const Body decimetres =

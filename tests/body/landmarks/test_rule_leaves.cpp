@@ -36,8 +36,10 @@ TriangleMesh without(TriangleMesh mesh, const std::vector<Vec3>& holes, double r
   TriangleMesh out;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     bool gone = false;
-    for (const Vec3& hole : holes) gone |= (mesh.positions[v] - hole).norm() < radius;
-    if (gone) continue;
+    for (const Vec3& hole : holes)
+      gone |= (mesh.positions[v] - hole).norm() < radius;
+    if (gone)
+      continue;
     number[v] = static_cast<int>(out.positions.size());
     out.positions.push_back(mesh.positions[v]);
   }
@@ -55,12 +57,15 @@ void collect(const std::vector<std::string>& trail, std::set<Leaf>& leaves) {
   const auto& tree = standard.tree();
   for (const std::string& line : trail) {
     const std::size_t colon = line.find(": ");
-    if (colon == std::string::npos) continue;
+    if (colon == std::string::npos)
+      continue;
     std::string place = line.substr(0, colon);
-    if (!tree.count(place) && place.size() > 2) place.resize(place.size() - 2);
+    if (!tree.count(place) && place.size() > 2)
+      place.resize(place.size() - 2);
     if (const auto it = tree.find(place); it != tree.end())
       for (const RuleChoice& rule : it->second)
-        if (rule.name == line.substr(colon + 2)) leaves.emplace(place, rule.name);
+        if (rule.name == line.substr(colon + 2))
+          leaves.emplace(place, rule.name);
   }
 }
 
@@ -69,7 +74,8 @@ TriangleMesh with_scarf(TriangleMesh mesh, double s, bool over_throat) {
   const std::vector<Vec3> normals = vertex_normals(mesh);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Vec3& p = mesh.positions[v];
-    if (p.y() < 0.77 * s || p.y() > 0.90 * s || std::hypot(p.x(), p.z()) > 0.13 * s) continue;
+    if (p.y() < 0.77 * s || p.y() > 0.90 * s || std::hypot(p.x(), p.z()) > 0.13 * s)
+      continue;
     if (over_throat && normals[v].z() > 0.1)
       p.z() = std::max(p.z(), s * (0.09 - 0.3 * (p.y() / s - 0.78)));
     const double r = std::hypot(p.x(), p.z()), wanted = s * (0.055 + 0.9 * (0.90 - p.y() / s));
@@ -113,7 +119,8 @@ TriangleMesh with_sleeves(TriangleMesh mesh, const Body& body) {
       const double along = (p - wrist).dot(axis);
       const Vec3 off = p - wrist - along * axis;
       const double r = off.norm(), wanted = 0.05;
-      if (along > -0.03 && along < 0.25 && r < wanted && r > 1e-6) p += (wanted / r - 1) * off;
+      if (along > -0.03 && along < 0.25 && r < wanted && r > 1e-6)
+        p += (wanted / r - 1) * off;
     }
   }
   return mesh;
@@ -129,7 +136,8 @@ TriangleMesh with_muscles(TriangleMesh mesh, const Body& body) {
     for (Vec3& p : mesh.positions) {
       const double along = (p - elbow).dot(axis);
       const Vec3 off = p - elbow - along * axis;
-      if (along < 0 || along > 0.8 * length || off.norm() > 0.08) continue;
+      if (along < 0 || along > 0.8 * length || off.norm() > 0.08)
+        continue;
       p += 0.35 * std::clamp(along / 0.05, 0.0, 1.0) *
            std::clamp((0.8 * length - along) / 0.1, 0.0, 1.0) * off;
     }
@@ -207,7 +215,8 @@ TEST(Spread, grows_where_the_scan_says_little) {
     EXPECT_LE(landmark.confidence, 1);
   }
   EXPECT_LT(body.landmarks.at("leg_top_l").spread_m, 0.004) << "a centroid is sure";
-  for (const auto& [name, girth] : body.girths) EXPECT_LT(girth.spread_m, 0.03) << name;
+  for (const auto& [name, girth] : body.girths)
+    EXPECT_LT(girth.spread_m, 0.03) << name;
 }
 
 TEST(Spread, is_the_same_on_every_run) {

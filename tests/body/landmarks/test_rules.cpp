@@ -98,5 +98,6 @@ TEST(Rules, conditions_ask_for_figure_stance_and_skin) {
 
 TEST(Rules, every_built_in_number_is_finite) {
   const Rules rules = Rules::standard();
-  for (const auto& [name, value] : rules.numbers()) EXPECT_TRUE(std::isfinite(value)) << name;
+  for (const auto& [name, value] : rules.numbers())
+    EXPECT_TRUE(std::isfinite(value)) << name;
 }

@@ -10,7 +10,8 @@ namespace {
 
 bool is_doubted(const Body& body, const std::string& place) {
   for (const Finding& f : body.scan.findings)
-    if (f.severity == "warning" && f.place == place) return true;
+    if (f.severity == "warning" && f.place == place)
+      return true;
   return false;
 }
 

@@ -24,12 +24,14 @@ int flat_findings(const Body& body) {
 TriangleMesh pressed(TriangleMesh mesh, double low, double high, double slope) {
   double depth = 0;
   for (const Vec3& p : mesh.positions)
-    if (p.y() > low && p.y() < high && std::abs(p.x()) < 0.15) depth = std::max(depth, p.z());
+    if (p.y() > low && p.y() < high && std::abs(p.x()) < 0.15)
+      depth = std::max(depth, p.z());
   depth += 0.01;
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
   for (Vec3& p : mesh.positions) {
     const double off = std::abs(p.y() - middle) - half;
-    if (off > 0.08 || std::abs(p.x()) > 0.08 || p.z() < 0) continue;
+    if (off > 0.08 || std::abs(p.x()) > 0.08 || p.z() < 0)
+      continue;
     p.z() = std::max(p.z(), depth + slope * (p.y() - middle) -
                                 3 * std::max(0.0, off) * std::max(0.0, off) - 5 * p.x() * p.x());
   }
@@ -72,7 +74,8 @@ TEST(HandTip, is_that_of_the_middle_finger_where_another_reaches_as_far_over_the
                tip = test::in_scan(body, std::string("hand_tip") + side);
     double farthest = 0;
     for (const Vec3& p : scan.positions)
-      if ((p - tip).norm() < 0.15) farthest = std::max(farthest, (p - wrist).norm());
+      if ((p - tip).norm() < 0.15)
+        farthest = std::max(farthest, (p - wrist).norm());
     EXPECT_NEAR((tip - wrist).norm(), farthest, 0.002) << side;
   }
 }

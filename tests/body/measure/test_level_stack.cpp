@@ -12,7 +12,7 @@ namespace {
 constexpr double STATURE = 1.7;
 
 void append(TriangleMesh& mesh, const TriangleMesh& more) {
-  const int shift = static_cast<int>(mesh.positions.size());
+  const int shift = std::ssize(mesh.positions);
   mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
   for (const Triangle& t : more.triangles)
     mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
@@ -23,7 +23,7 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
 TriangleMesh prism(const std::vector<Vec2>& outline, const Vec3& first, const Vec3& second,
                    const Vec3& along, double half) {
   TriangleMesh mesh;
-  const int n = static_cast<int>(outline.size());
+  const int n = std::ssize(outline);
   for (const double end : {-half, half})
     for (const Vec2& q : outline)
       mesh.positions.push_back(q.x() * first + q.y() * second + end * along);
@@ -31,7 +31,8 @@ TriangleMesh prism(const std::vector<Vec2>& outline, const Vec3& first, const Ve
     const int next = (k + 1) % n;
     mesh.triangles.push_back({k, next, next + n});
     mesh.triangles.push_back({k, next + n, k + n});
-    if (k == 0 || next == 0) continue;
+    if (k == 0 || next == 0)
+      continue;
     mesh.triangles.push_back({0, next, k});
     mesh.triangles.push_back({n, k + n, next + n});
   }
@@ -42,7 +43,8 @@ TriangleMesh box(const Vec3& low, const Vec3& high) {
   TriangleMesh mesh =
       prism({{low.x(), low.y()}, {high.x(), low.y()}, {high.x(), high.y()}, {low.x(), high.y()}},
             Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), 0.5 * (high.z() - low.z()));
-  for (Vec3& p : mesh.positions) p.z() += 0.5 * (low.z() + high.z());
+  for (Vec3& p : mesh.positions)
+    p.z() += 0.5 * (low.z() + high.z());
   return mesh;
 }
 

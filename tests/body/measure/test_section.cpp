@@ -83,7 +83,8 @@ TEST(LevelledMesh, gives_the_same_bits_as_a_cut_of_the_whole_mesh) {
 TEST(ConvexHull, of_a_square_with_points_inside_and_on_its_sides_has_four_corners) {
   std::vector<Vec2> points;
   for (int i = 0; i <= 4; ++i)
-    for (int j = 0; j <= 4; ++j) points.emplace_back(0.25 * i, 0.25 * j);
+    for (int j = 0; j <= 4; ++j)
+      points.emplace_back(0.25 * i, 0.25 * j);
   const std::vector<Vec2> hull = convex_hull(points);
   EXPECT_EQ(hull.size(), 4u);
   EXPECT_NEAR(closed_length(hull), 4, 1e-12);

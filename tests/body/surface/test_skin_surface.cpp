@@ -40,8 +40,10 @@ TEST(Skin, of_a_mesh_with_turned_and_doubled_faces_is_whole_again) {
   Random random(5);
   const std::size_t n = mesh.triangles.size();
   for (std::size_t t = 0; t < n; ++t) {
-    if (random.uniform() < 0.05) mesh.triangles.push_back(mesh.triangles[t]);
-    if (random.uniform() < 0.3) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+    if (random.uniform() < 0.05)
+      mesh.triangles.push_back(mesh.triangles[t]);
+    if (random.uniform() < 0.3)
+      std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
   }
   mesh.triangles.push_back({1, 1, 2});
   const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.65);

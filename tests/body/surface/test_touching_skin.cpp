@@ -13,7 +13,8 @@ namespace {
 /// An upright cylinder without caps, outward.
 void add_column(TriangleMesh& mesh, double x, double radius, double height, int around, int rows) {
   std::vector<shapes::Ring> rings;
-  for (int r = 0; r <= rows; ++r) rings.push_back({height * r / rows, radius, radius});
+  for (int r = 0; r <= rows; ++r)
+    rings.push_back({height * r / rows, radius, radius});
   shapes::append(mesh, shapes::revolve(around, rings, Vec3(x, 0, 0),
                                        0.25 * around)); // the first vertex of a ring at +x
 }
@@ -21,8 +22,10 @@ void add_column(TriangleMesh& mesh, double x, double radius, double height, int 
 double least_gap(const TriangleMesh& mesh, std::size_t n_first) {
   double left = -1e300, right = 1e300;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    if (v < n_first) left = std::max(left, mesh.positions[v].x());
-    else right = std::min(right, mesh.positions[v].x());
+    if (v < n_first)
+      left = std::max(left, mesh.positions[v].x());
+    else
+      right = std::min(right, mesh.positions[v].x());
   }
   return right - left;
 }
@@ -53,13 +56,15 @@ TEST(TouchingSkin, TwoLegsThatTouchOrOverlapALittleArePartedAndTheRestStays) {
 TriangleMesh slot(double width, double edge, double roughness, int& n_columns) {
   constexpr double DEPTH = 0.03, LENGTH = 0.02; // m
   std::vector<std::array<double, 2>> profile;
-  for (double y = -DEPTH; y < 0; y += edge) profile.push_back({-width / 2, y});
+  for (double y = -DEPTH; y < 0; y += edge)
+    profile.push_back({-width / 2, y});
   const std::size_t n_wall = profile.size();
   const int n_roof = std::max(4, static_cast<int>(std::lround(M_PI * width / 2 / edge)));
   for (int k = 0; k <= n_roof; ++k)
     profile.push_back(
         {-width / 2 * std::cos(M_PI * k / n_roof), width / 2 * std::sin(M_PI * k / n_roof)});
-  for (std::size_t k = n_wall; k-- > 0;) profile.push_back({width / 2, profile[k][1]});
+  for (std::size_t k = n_wall; k-- > 0;)
+    profile.push_back({width / 2, profile[k][1]});
   n_columns = static_cast<int>(profile.size());
   TriangleMesh mesh;
   std::mt19937 random(1);
@@ -95,10 +100,13 @@ TEST(TouchingSkin, FineSkinWhereTheWallsOfASlotMeetDoesNotLieInFolds) {
                              << roughness;
         double left = -1, right = 1; // below the roof there is room for cloth
         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-          if (before.positions[v].y() > -0.008) continue;
+          if (before.positions[v].y() > -0.008)
+            continue;
           const double x = mesh.positions[v].x();
-          if (static_cast<int>(v) % n_columns < n_columns / 2) left = std::max(left, x);
-          else right = std::min(right, x);
+          if (static_cast<int>(v) % n_columns < n_columns / 2)
+            left = std::max(left, x);
+          else
+            right = std::min(right, x);
         }
         EXPECT_GT(right - left, 0.003)
             << "width " << width << ", edge " << edge << ", roughness " << roughness;

@@ -22,8 +22,9 @@ namespace {
 TriangleMesh table(int n, double size) {
   TriangleMesh m;
   for (int r = 0; r <= n; ++r)
-    for (int c = 0; c <= n; ++c) m.positions.emplace_back(size * c / n, 0, -size * r / n);
-  const int top = static_cast<int>(m.positions.size());
+    for (int c = 0; c <= n; ++c)
+      m.positions.emplace_back(size * c / n, 0, -size * r / n);
+  const int top = std::ssize(m.positions);
   for (const Vec3& p :
        {Vec3(0, -0.2, 0), Vec3(size, -0.2, 0), Vec3(size, -0.2, -size), Vec3(0, -0.2, -size)})
     m.positions.push_back(p);
@@ -35,7 +36,8 @@ TriangleMesh table(int n, double size) {
     }
   auto side = [&](int low0, int low1,
                   auto at) { // a fan from the lower edge to the row of upper vertices
-    for (int c = 0; c < n; ++c) m.triangles.push_back({at(c + 1), at(c), low0});
+    for (int c = 0; c < n; ++c)
+      m.triangles.push_back({at(c + 1), at(c), low0});
     m.triangles.push_back({at(n), low0, low1});
   };
   side(top, top + 1, [&](int c) { return c; });
@@ -74,13 +76,16 @@ Filled fill_alone(Effect& effect, const Grid& grid) {
 
 double upward(const Filled& filled) {
   double sum = 0;
-  for (const Vec3& f : filled.force) sum += f.y();
+  for (const Vec3& f : filled.force)
+    sum += f.y();
   return sum;
 }
 
 /// Edges 2 degrees from parallel share their force with vertices and faces, in a share that no
 /// force tells of. @return about y by that
-Vec3 turned(const Vec3& p) { return Eigen::AngleAxisd(0.035, Vec3::UnitY()) * p; }
+Vec3 turned(const Vec3& p) {
+  return Eigen::AngleAxisd(0.035, Vec3::UnitY()) * p;
+}
 
 /// Force against central differences of the energy over the pairs of the last search, relative to
 /// the largest force.
@@ -91,7 +96,8 @@ double gradient_error(Effect& effect, const ClothMesh& mesh, std::vector<Vec3> x
   effect.bind(matrix);
   const auto force = fill(effect, mesh.n_particles, x, matrix).force;
   double largest = 0, worst = 0;
-  for (const Vec3& f : force) largest = std::max(largest, f.norm());
+  for (const Vec3& f : force)
+    largest = std::max(largest, f.norm());
   const double eps = 1e-8;
   for (int i = 0; i < mesh.n_particles; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -136,7 +142,8 @@ TEST(Contact, NearlyParallelEdgesHaveTheEnergyOfTheirForceWithinAStep) {
   collision::BodyCollider body(table(7, 0.2));
   Grid grid = make_grid(6, 0.15);
   const Vec3 middle(0.06, 0, -0.045); // of an edge, which comes to lie along the table's edge
-  for (Vec3& p : grid.x) p = turned(p - middle) + Vec3(0, 0.0004, -0.09);
+  for (Vec3& p : grid.x)
+    p = turned(p - middle) + Vec3(0, 0.0004, -0.09);
   BodyContactOptions options;
   options.level = ContactLevel::EDGE;
   BodyContactEffect on_skin(grid.mesh, body, options);
@@ -145,7 +152,8 @@ TEST(Contact, NearlyParallelEdgesHaveTheEnergyOfTheirForceWithinAStep) {
 
 TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
   Grid grid = make_grid(6, 0.15);
-  for (Vec3& p : grid.x) p += Vec3(0.023, 0.0004, -0.0231);
+  for (Vec3& p : grid.x)
+    p += Vec3(0.023, 0.0004, -0.0231);
   const TriangleMesh fine = table(40, 0.2);
   double last = 0;
   for (const ContactLevel level : {ContactLevel::VERTEX, ContactLevel::FACE,
@@ -156,8 +164,10 @@ TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
     BodyContactEffect contact(grid.mesh, body, options);
     const Filled filled = fill_alone(contact, grid);
     const double up = upward(filled);
-    if (level == ContactLevel::CONTINUOUS) EXPECT_GE(up, last);
-    else EXPECT_GT(up, 1.01 * last) << static_cast<int>(level);
+    if (level == ContactLevel::CONTINUOUS)
+      EXPECT_GE(up, last);
+    else
+      EXPECT_GT(up, 1.01 * last) << static_cast<int>(level);
     EXPECT_EQ(filled.limits.planes.empty(), level != ContactLevel::CONTINUOUS);
     last = up;
   }
@@ -165,7 +175,8 @@ TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
 
 TEST(Contact, EdgesOfAnEdgedBodyAreSeenAtTheEdgeLevelOnly) {
   Grid grid = make_grid(6, 0.15); // the table's own edge runs under the middle of the cloth's
-  for (Vec3& p : grid.x) p += Vec3(-0.0647, 0.0004, -0.0231);
+  for (Vec3& p : grid.x)
+    p += Vec3(-0.0647, 0.0004, -0.0231);
   std::vector<double> up;
   for (const ContactLevel level : {ContactLevel::FACE, ContactLevel::EDGE}) {
     collision::BodyCollider body(table(7, 0.2));
@@ -191,7 +202,8 @@ TEST(Contact, ForceOfClothOnItselfIsTheGradientOfItsEnergy) {
   SelfContactEffect contact(a.mesh, {});
   EXPECT_LT(gradient_error(contact, a.mesh, a.x), 2e-3);
   for (Vec3& p : a.x)
-    if (p.y() > 0.001) p = turned(p); // over edges that it nearly runs along
+    if (p.y() > 0.001)
+      p = turned(p); // over edges that it nearly runs along
   SelfContactEffect along(a.mesh, {});
   EXPECT_LT(gradient_error(along, a.mesh, a.x), 2e-3);
 }
@@ -199,7 +211,8 @@ TEST(Contact, ForceOfClothOnItselfIsTheGradientOfItsEnergy) {
 TEST(Contact, WhateverTheForceNoStepPassesTheSkin) {
   collision::BodyCollider body(table(7, 0.2));
   Grid grid = make_grid(14, 0.26); // hangs over all four edges of the table
-  for (Vec3& p : grid.x) p += Vec3(-0.03, 0.004, 0.03);
+  for (Vec3& p : grid.x)
+    p += Vec3(-0.03, 0.004, 0.03);
   ClothSolver solver(grid.mesh, grid.x);
   solver.emplace<EdgeSpringEffect>(grid.mesh);
   solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -2000, 0)); // two hundred times its weight
@@ -220,13 +233,15 @@ TEST(Contact, WhateverTheForceNoStepPassesTheSkin) {
 TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   collision::BodyCollider body(table(7, 0.2));
   Grid grid = make_grid(10, 0.15);
-  for (Vec3& p : grid.x) p += Vec3(0.02, 0.0045, -0.02); // seen, but beyond the reach
+  for (Vec3& p : grid.x)
+    p += Vec3(0.02, 0.0045, -0.02); // seen, but beyond the reach
   BodyContactEffect contact(grid.mesh, body, {});
   Filled filled = fill_alone(contact, grid); // the search has told how far off all pairs are
   EXPECT_TRUE(filled.limits.planes.empty());
 
   std::vector<Vec3> low = grid.x;
-  for (Vec3& p : low) p.y() = 0.0025; // no farther than pairs are seen ahead
+  for (Vec3& p : low)
+    p.y() = 0.0025; // no farther than pairs are seen ahead
   BodyContactEffect there(grid.mesh, body, {});
   Grid lowered = grid;
   lowered.x = low;
@@ -242,24 +257,28 @@ TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   filled.limits.max_displacement.assign(grid.x.size(), 1); // of planes alone
   std::vector<char> held(grid.x.size(), 0);
   filled.limits.apply(grid.x, dx, held);
-  for (std::size_t i = 0; i < dx.size(); ++i) EXPECT_GT(grid.x[i].y() + dx[i].y(), 0.001);
+  for (std::size_t i = 0; i < dx.size(); ++i)
+    EXPECT_GT(grid.x[i].y() + dx[i].y(), 0.001);
 }
 
 TEST(Contact, ClothThatStartsInTheSkinComesOut) {
   collision::BodyCollider body(table(7, 0.2));
   Grid grid = make_grid(10, 0.15);
   Random random(5);
-  for (Vec3& p : grid.x) p += Vec3(0.02, 0.002 * random.uniform(-1, 1), -0.02);
+  for (Vec3& p : grid.x)
+    p += Vec3(0.02, 0.002 * random.uniform(-1, 1), -0.02);
   ClothSolver solver(grid.mesh, grid.x);
   solver.emplace<EdgeSpringEffect>(grid.mesh);
   auto& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
   StepOptions options;
   solver.step(options);
   EXPECT_GT(contact.n_crossing(), 0u);
-  for (int k = 0; k < 40; ++k) solver.step(options);
+  for (int k = 0; k < 40; ++k)
+    solver.step(options);
   EXPECT_EQ(contact.n_crossing(), 0u);
   EXPECT_TRUE(body.faces_through(solver.x(), grid.mesh.particle_triangles()).empty());
-  for (const Vec3& p : solver.x()) EXPECT_GT(p.y(), 0);
+  for (const Vec3& p : solver.x())
+    EXPECT_GT(p.y(), 0);
 }
 
 /// A sheet at y = 0 and one above it that comes down at `speed`, m/s.
@@ -276,12 +295,14 @@ FallingSheet sheet_above_sheet(double height) {
   for (int layer = 0; layer < 2; ++layer)
     for (const Triangle& t : one.mesh.particle_triangles()) {
       RestTriangle rest{{t[0] + layer * n, t[1] + layer * n, t[2] + layer * n}, {}, 0};
-      for (int k = 0; k < 3; ++k) rest.flat[k] = Vec2(one.x[t[k]].x(), -one.x[t[k]].z());
+      for (int k = 0; k < 3; ++k)
+        rest.flat[k] = Vec2(one.x[t[k]].x(), -one.x[t[k]].z());
       triangles.push_back(rest);
     }
   s.mesh = make_cloth_mesh(2 * n, triangles, {Fabric{}});
   for (int layer = 0; layer < 2; ++layer)
-    for (const Vec3& p : one.x) s.x.push_back(p + layer * Vec3(0.0031, height, 0.0023));
+    for (const Vec3& p : one.x)
+      s.x.push_back(p + layer * Vec3(0.0031, height, 0.0023));
   return s;
 }
 
@@ -309,7 +330,7 @@ TEST(Contact, ClothThatFallsTogetherFallsFreely) {
 TEST(Contact, WhatMayPassPassesUntilItMayNot) {
   FallingSheet s = sheet_above_sheet(0.0012);
   SelfContactEffect contact(s.mesh, {});
-  const int n = static_cast<int>(s.x.size());
+  const int n = std::ssize(s.x);
   Couplings couplings;
   contact.declare(couplings);
   BlockMatrix matrix(n, couplings);
@@ -317,7 +338,8 @@ TEST(Contact, WhatMayPassPassesUntilItMayNot) {
   const auto pushes = [&] {
     const Filled f = fill(contact, n, s.x, matrix);
     double most = 0;
-    for (const Vec3& force : f.force) most = std::max(most, force.norm());
+    for (const Vec3& force : f.force)
+      most = std::max(most, force.norm());
     return most;
   };
   const double most = pushes();
@@ -333,22 +355,25 @@ TEST(Contact, WhatMayPassPassesUntilItMayNot) {
   for (const bool may : {false, true}) { // and in motion
     ClothSolver solver(s.mesh, s.x);
     auto& held = solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
-    if (may) held.let_pass(std::vector<char>(s.x.size(), 1));
+    if (may)
+      held.let_pass(std::vector<char>(s.x.size(), 1));
     solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.81, 0));
     std::vector<Vec3> velocity(s.x.size(), Vec3::Zero());
-    for (int i = n / 2; i < n; ++i) velocity[i] = Vec3(0, -1, 0);
+    for (int i = n / 2; i < n; ++i)
+      velocity[i] = Vec3(0, -1, 0);
     solver.shift(std::vector<Vec3>(s.x.size(), Vec3::Zero()), velocity);
     StepOptions options;
     options.inertia = 1;
     options.largest_move_m = 1;
-    for (int k = 0; k < 3; ++k) solver.step(options);
+    for (int k = 0; k < 3; ++k)
+      solver.step(options);
     EXPECT_EQ(solver.x().back().y() < solver.x().front().y(), may);
   }
 }
 
 TEST(Contact, WhatCrossedIsGuardedAsAllElseOnceItIsParted) {
   const FallingSheet s = sheet_above_sheet(0.0012);
-  const int n = static_cast<int>(s.x.size());
+  const int n = std::ssize(s.x);
   std::vector<Vec3> crossing = s.x;
   for (int i = n / 2; i < n; ++i)
     crossing[i].y() += 0.2 * (crossing[i].x() - s.x[n / 2].x()) - 0.005;
@@ -370,7 +395,8 @@ TEST(Contact, LookingAheadChangesNoStep) {
        {0.004,
         -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search
     Grid grid = make_grid(14, 0.26);
-    for (Vec3& p : grid.x) p += Vec3(-0.03, height, 0.03);
+    for (Vec3& p : grid.x)
+      p += Vec3(-0.03, height, 0.03);
     std::vector<Vec3> end[2];
     long ahead = 0;
     for (const bool look : {false, true}) {
@@ -382,7 +408,8 @@ TEST(Contact, LookingAheadChangesNoStep) {
       for (int k = 0; k < 20; ++k) {
         solver.step({});
         const long searches = skin.searches;
-        if (look) solver.prefetch_contacts(StepOptions{}.h);
+        if (look)
+          solver.prefetch_contacts(StepOptions{}.h);
         ahead += skin.searches - searches;
       }
       end[look] = solver.x();
@@ -422,7 +449,8 @@ TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
     for (int part = 1; part <= 40;
          ++part) { // a sheet that passes in one step leaves no crossing behind
       std::vector<Vec3> x = before;
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] += part / 40.0 * (solver.x()[i] - before[i]);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] += part / 40.0 * (solver.x()[i] - before[i]);
       const collision::TriangleTree tree(x, triangles);
       ASSERT_TRUE(collision::self_intersections(x, triangles, tree).empty())
           << "step " << k << ", part " << part;
@@ -483,27 +511,34 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
     constexpr int N = 30;
     std::vector<Vec3> x(N), dx(N);
     const Vec3 wind = point();
-    for (Vec3& p : x) p = point();
-    for (Vec3& d : dx) d = wind + 0.5 * point();
+    for (Vec3& p : x)
+      p = point();
+    for (Vec3& d : dx)
+      d = wind + 0.5 * point();
     MotionLimits limits;
     limits.planes_translate = true;
     limits.reset(N);
-    for (int i = 0; i < N; i += 7) limits.max_displacement[i] = 0.2;
+    for (int i = 0; i < N; i += 7)
+      limits.max_displacement[i] = 0.2;
     for (int g = 0; g < 60; ++g) { // planes that present positions keep, between one and three or
                                    // two and two, and some that stay
       SeparatingPlane guard;
       guard.n = 4;
       guard.n_above = g % 10 == 0 ? 4 : 1 + g % 2;
-      for (int k = 0; k < 4; ++k) guard.particle[k] = static_cast<int>(random() % N);
+      for (int k = 0; k < 4; ++k)
+        guard.particle[k] = static_cast<int>(random() % N);
       guard.normal = point().normalized();
       guard.above = 1e300;
       guard.below = -1e300;
       for (int k = 0; k < 4; ++k) {
         const double height = guard.normal.dot(x[guard.particle[k]]);
-        if (k < guard.n_above) guard.above = std::min(guard.above, height - 0.02);
-        else guard.below = std::max(guard.below, height + 0.02);
+        if (k < guard.n_above)
+          guard.above = std::min(guard.above, height - 0.02);
+        else
+          guard.below = std::max(guard.below, height + 0.02);
       }
-      if (guard.n_above == 4 || guard.above >= guard.below) limits.planes.push_back(guard);
+      if (guard.n_above == 4 || guard.above >= guard.below)
+        limits.planes.push_back(guard);
     }
     const std::vector<Vec3> wanted = dx;
     std::vector<char> held(N, 0);
@@ -514,8 +549,10 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
       double most = 1e300, least = -1e300;
       for (int k = 0; k < 4; ++k) {
         const double height = g.normal.dot(x[g.particle[k]] + dx[g.particle[k]]);
-        if (k < g.n_above) most = std::min(most, height - g.above);
-        else least = std::max(least, height - g.below);
+        if (k < g.n_above)
+          most = std::min(most, height - g.above);
+        else
+          least = std::max(least, height - g.below);
       }
       EXPECT_LE(g.n_above == 4 ? 0 : least, most + 1e-9);
     }
@@ -525,7 +562,8 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
 TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
   collision::BodyCollider body(table(7, 0.2));
   Grid grid = make_grid(14, 0.22); // its rim hangs over
-  for (Vec3& p : grid.x) p += Vec3(-0.01, 0.004, 0.01);
+  for (Vec3& p : grid.x)
+    p += Vec3(-0.01, 0.004, 0.01);
   ClothSolver solver(grid.mesh, grid.x);
   auto& springs = solver.emplace<EdgeSpringEffect>(grid.mesh);
   auto& gravity = solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -9.81, 0));
@@ -571,12 +609,15 @@ TEST(BodyContact, skin_that_keeps_to_its_room_never_passes_the_cloth) {
   const std::vector<Triangle> triangles = cloth.mesh.particle_triangles();
   for (int k = 0; k < 30; ++k) {
     const std::vector<double> room = contact.max_safe_skin_displacement(solver.x());
-    for (std::size_t v = 0; v < moved.size(); ++v) moved[v].y() += room[v]; // up, into the cloth
+    for (std::size_t v = 0; v < moved.size(); ++v)
+      moved[v].y() += room[v]; // up, into the cloth
     contact.move_body(moved, solver.x());
     EXPECT_TRUE(body.faces_through(solver.x(), triangles).empty());
-    for (const Vec3& p : solver.x()) EXPECT_FALSE(body.is_inside(p));
+    for (const Vec3& p : solver.x())
+      EXPECT_FALSE(body.is_inside(p));
   }
   double highest = 0;
-  for (const Vec3& p : moved) highest = std::max(highest, p.y());
+  for (const Vec3& p : moved)
+    highest = std::max(highest, p.y());
   EXPECT_GT(highest, 0.001); // and it does come near
 }

@@ -29,9 +29,11 @@ double push_at(double height) {
   BlockMatrix matrix(grid.mesh.n_particles, couplings);
   effect.bind(matrix);
   std::vector<Vec3> x = grid.x;
-  for (Vec3& p : x) p.y() = height;
+  for (Vec3& p : x)
+    p.y() = height;
   double sum = 0;
-  for (const Vec3& f : force_of(effect, grid.mesh.n_particles, x, matrix)) sum += f.y();
+  for (const Vec3& f : force_of(effect, grid.mesh.n_particles, x, matrix))
+    sum += f.y();
   return sum;
 }
 
@@ -49,7 +51,8 @@ TEST(SoftBodyContact, its_matrix_is_the_change_of_its_force) {
   Grid grid = make_grid(4, 0.06);
   const collision::BodyCollider body(block());
   SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = LEVEL, .stiffness_n_m3 = 1e4});
-  for (Vec3& p : grid.x) p.y() = 0.4 * LEVEL;
+  for (Vec3& p : grid.x)
+    p.y() = 0.4 * LEVEL;
   expect_jacobian(effect, grid.mesh, jittered(grid.x, 0.001, 3), 1e-4);
 }
 
@@ -62,10 +65,12 @@ TEST(SoftBodyContact, a_skin_that_came_nearer_is_looked_for_again) {
   BlockMatrix matrix(grid.mesh.n_particles, couplings);
   effect.bind(matrix);
   std::vector<Vec3> x = grid.x;
-  for (Vec3& p : x) p.y() = 2 * LEVEL;
+  for (Vec3& p : x)
+    p.y() = 2 * LEVEL;
   EXPECT_EQ(force_of(effect, grid.mesh.n_particles, x, matrix)[4].y(), 0);
   std::vector<Vec3> skin = body.mesh().positions;
-  for (Vec3& p : skin) p.y() += 1.5 * LEVEL;
+  for (Vec3& p : skin)
+    p.y() += 1.5 * LEVEL;
   body.set_positions(skin);
   effect.body_moved(1.5 * LEVEL);
   EXPECT_GT(force_of(effect, grid.mesh.n_particles, x, matrix)[4].y(), 0);
@@ -77,7 +82,8 @@ TEST(SoftBodyContact, a_thumb_below_the_middle_of_a_face_is_felt_there) {
   TriangleMesh thumb = block();
   for (Vec3& p : thumb.positions) {
     p *= 0.004;
-    for (int i : t) p += Vec3(grid.x[i].x(), 0, grid.x[i].z()) / 3;
+    for (int i : t)
+      p += Vec3(grid.x[i].x(), 0, grid.x[i].z()) / 3;
   }
   const collision::BodyCollider body(thumb);
   SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = 0.005, .stiffness_n_m3 = 1e4});
@@ -86,7 +92,9 @@ TEST(SoftBodyContact, a_thumb_below_the_middle_of_a_face_is_felt_there) {
   BlockMatrix matrix(grid.mesh.n_particles, couplings);
   effect.bind(matrix);
   std::vector<Vec3> x = grid.x;
-  for (Vec3& p : x) p.y() = 0.002;
+  for (Vec3& p : x)
+    p.y() = 0.002;
   const std::vector<Vec3> force = force_of(effect, grid.mesh.n_particles, x, matrix);
-  for (int i : t) EXPECT_GT(force[static_cast<std::size_t>(i)].y(), 0);
+  for (int i : t)
+    EXPECT_GT(force[i].y(), 0);
 }

@@ -21,7 +21,8 @@ using namespace sloper::cloth;
 namespace {
 
 std::vector<Vec3> scaled(std::vector<Vec3> x, double by) {
-  for (Vec3& p : x) p *= by;
+  for (Vec3& p : x)
+    p *= by;
   return x;
 }
 
@@ -71,7 +72,8 @@ TEST(TriangleStretch, a_shrunk_square_is_at_rest_at_b_u_by_b_v) {
   const Grid g = make_grid(5, 0.1);
   TriangleStretchEffect effect(g.mesh, std::vector<Shrink>(g.mesh.triangles.size(), {0.8, 0.9}));
   auto x = g.x;
-  for (Vec3& p : x) p = Vec3(0.8 * p.x(), 0, 0.9 * p.z()); // weft lies along x, warp along z
+  for (Vec3& p : x)
+    p = Vec3(0.8 * p.x(), 0, 0.9 * p.z()); // weft lies along x, warp along z
   EXPECT_LT(effect.energy(x), 1e-20);
   EXPECT_GT(effect.energy(g.x), 1e-3);
 }
@@ -99,14 +101,17 @@ TEST(TriangleStretch, one_percent_compression_makes_the_assembled_exact_matrix_i
       BlockMatrix matrix(g.mesh.n_particles, couplings);
       effect->bind(matrix);
       force_of(*effect, g.mesh.n_particles, scaled(g.x, 0.99), matrix);
-      if (exact) effect->add_indefinite_part(scaled(g.x, 0.99), matrix);
+      if (exact)
+        effect->add_indefinite_part(scaled(g.x, 0.99), matrix);
       const double h = 1.0 / 30; // with the inertia of the paper's own step
       for (int i = 0; i < g.mesh.n_particles; ++i)
         matrix.add_diagonal(i, g.mesh.mass[i] / (h * h) * Mat3::Identity());
       const double least =
           Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(matrix)).eigenvalues()[0];
-      if (exact) EXPECT_LT(least, -0.1) << effect->name();
-      else EXPECT_GT(least, 0) << effect->name();
+      if (exact)
+        EXPECT_LT(least, -0.1) << effect->name();
+      else
+        EXPECT_GT(least, 0) << effect->name();
     }
   }
 }
@@ -140,12 +145,14 @@ TEST(Membrane, a_strip_pulled_along_the_warp_has_the_stretch_stiffness_and_narro
   const double strain = 1e-5;
   auto energy = [&](double narrowing) {
     auto x = g.x;
-    for (Vec3& p : x) p = Vec3(p.x() * (1 - narrowing * strain), 0, p.z() * (1 + strain));
+    for (Vec3& p : x)
+      p = Vec3(p.x() * (1 - narrowing * strain), 0, p.z() * (1 + strain));
     return effect.energy(x) / 0.01;
   };
   double best = 0;
   for (double n = 0; n < 0.6; n += 0.001)
-    if (energy(n) < energy(best)) best = n;
+    if (energy(n) < energy(best))
+      best = n;
   EXPECT_NEAR(best, 0.3, 0.002);
   EXPECT_NEAR(energy(best), 0.5 * 2000 * strain * strain,
               1e-3 * energy(best)); // to first order in strain
@@ -154,7 +161,8 @@ TEST(Membrane, a_strip_pulled_along_the_warp_has_the_stretch_stiffness_and_narro
 TEST(DihedralBending, force_is_minus_energy_gradient_with_rest_angles) {
   const Grid g = make_grid(5, 0.1);
   std::vector<double> rest(g.mesh.hinges.size());
-  for (std::size_t h = 0; h < rest.size(); ++h) rest[h] = 0.3 * std::sin(static_cast<double>(h));
+  for (std::size_t h = 0; h < rest.size(); ++h)
+    rest[h] = 0.3 * std::sin(static_cast<double>(h));
   DihedralBendingEffect effect(g.mesh, rest);
   expect_gradient(effect, g.mesh, jittered(g.x, 0.004, 10));
   expect_rigid_motion_invariance(effect, g.mesh, jittered(g.x, 0.004, 10));
@@ -164,7 +172,8 @@ TEST(DihedralBending, stiffness_is_minus_force_gradient_at_the_rest_angle) {
   const Grid g = make_grid(5, 0.1);
   const auto x = jittered(g.x, 0.003, 11);
   std::vector<double> rest;
-  for (const Hinge& h : g.mesh.hinges) rest.push_back(hinge_angle(h, x));
+  for (const Hinge& h : g.mesh.hinges)
+    rest.push_back(hinge_angle(h, x));
   DihedralBendingEffect effect(g.mesh, rest);
   EXPECT_LT(effect.energy(x), 1e-20);
   expect_jacobian(effect, g.mesh, x, 1e-5);
@@ -173,7 +182,8 @@ TEST(DihedralBending, stiffness_is_minus_force_gradient_at_the_rest_angle) {
 TEST(DihedralBending, agrees_with_the_isometric_model_for_small_angles) {
   const Grid g = make_grid(9, 0.1);
   auto x = g.x;
-  for (Vec3& p : x) p.y() = 0.05 * p.x() * p.x();
+  for (Vec3& p : x)
+    p.y() = 0.05 * p.x() * p.x();
   DihedralBendingEffect dihedral(g.mesh);
   BendingEffect isometric(g.mesh);
   EXPECT_NEAR(dihedral.energy(x), isometric.energy(x), 1e-3 * isometric.energy(x));
@@ -216,7 +226,8 @@ TEST(Wind, pushes_a_plate_with_half_rho_c_v_squared_per_area) {
   BlockMatrix matrix(g.mesh.n_particles, {});
   effect.begin_step(g.x, 0.1);
   Vec3 total = Vec3::Zero();
-  for (const Vec3& f : force_of(effect, g.mesh.n_particles, g.x, matrix)) total += f;
+  for (const Vec3& f : force_of(effect, g.mesh.n_particles, g.x, matrix))
+    total += f;
   EXPECT_NEAR(total.y(), 0.5 * 1.2 * 1.2 * 25 * 0.01, 1e-9);
   EXPECT_NEAR(total.x(), 0, 1e-12);
   expect_gradient(effect, g.mesh, jittered(g.x, 0.002, 14), false);
@@ -229,7 +240,8 @@ TEST(Wind, of_still_air_takes_energy_from_cloth_that_moves) {
   const Vec3 v(0, 3, 1);
   auto x = g.x;
   effect.begin_step(x, h);
-  for (Vec3& p : x) p += h * v;
+  for (Vec3& p : x)
+    p += h * v;
   effect.begin_step(x, h);
   BlockMatrix matrix(g.mesh.n_particles, {});
   std::vector<Vec3> force(x.size(), Vec3::Zero()), product(x.size());
@@ -239,7 +251,8 @@ TEST(Wind, of_still_air_takes_energy_from_cloth_that_moves) {
   matrix.multiply(std::vector<Vec3>(x.size(), h * v),
                   product); // D/h dx: the drag over a step at this velocity
   double power = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) power += (force[i] - product[i]).dot(v);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    power += (force[i] - product[i]).dot(v);
   EXPECT_NEAR(power, -0.5 * 1.2 * (1.2 * 27 + 0.02 * 1) * 0.01, 1e-6);
 }
 
@@ -256,7 +269,8 @@ TEST(Pressure, pushes_an_open_sheet_with_p_times_area) {
   PressureEffect effect(g.mesh.particle_triangles(), 200);
   BlockMatrix matrix(g.mesh.n_particles, {});
   Vec3 total = Vec3::Zero();
-  for (const Vec3& f : force_of(effect, g.mesh.n_particles, g.x, matrix)) total += f;
+  for (const Vec3& f : force_of(effect, g.mesh.n_particles, g.x, matrix))
+    total += f;
   EXPECT_LT((total - Vec3(0, 2, 0)).norm(), 1e-9) << total.transpose();
   expect_gradient(effect, g.mesh, jittered(g.x, 0.01, 16),
                   false); // the rim's correction holds where add() was called

@@ -19,7 +19,8 @@ TEST(EdgeSpring, force_is_minus_energy_gradient) {
 
 TEST(EdgeSpring, stiffness_is_minus_force_gradient_when_stretched) {
   Grid g = make_grid(5, 0.1);
-  for (Vec3& p : g.x) p *= 1.3; // all springs are longer than at rest, so nothing is clamped
+  for (Vec3& p : g.x)
+    p *= 1.3; // all springs are longer than at rest, so nothing is clamped
   EdgeSpringEffect effect(g.mesh);
   expect_jacobian(effect, g.mesh, jittered(g.x, 0.0005, 2), 1e-5);
 }
@@ -43,7 +44,8 @@ TEST(EdgeSpring, one_percent_compression_makes_the_unclamped_matrix_indefinite) 
 TEST(EdgeSpring, assembled_matrix_is_definite_at_any_compression) {
   for (double scale : {0.99, 0.9, 0.5, 0.1}) {
     Grid g = make_grid(5, 0.1);
-    for (Vec3& p : g.x) p *= scale;
+    for (Vec3& p : g.x)
+      p *= scale;
     EdgeSpringEffect effect(g.mesh);
     Couplings couplings;
     effect.declare(couplings);
@@ -72,7 +74,8 @@ TEST(Shear, pure_shear_costs_half_k_angle_squared_per_area) {
   const Grid g = make_grid(6, 0.2, fabric);
   auto x = g.x;
   const double angle = 0.01;
-  for (Vec3& p : x) p.x() += angle * p.z();
+  for (Vec3& p : x)
+    p.x() += angle * p.z();
   EXPECT_NEAR(shear_energy(make_shear(g.mesh), x), 0.5 * fabric.shear_n_m * angle * angle * 0.04,
               1e-3 * fabric.shear_n_m * angle * angle * 0.04);
 }
@@ -99,7 +102,8 @@ TEST(Bending, flat_cloth_in_any_pose_has_no_bending_force) {
   const Grid g = make_grid(6, 0.1);
   const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, 3).normalized());
   auto x = g.x;
-  for (Vec3& p : x) p = turn * p + Vec3(1, 2, 3);
+  for (Vec3& p : x)
+    p = turn * p + Vec3(1, 2, 3);
   EXPECT_LT(bending_energy(g.mesh, x), 1e-18);
 }
 
@@ -134,7 +138,8 @@ TEST(ClothMesh, masses_add_up_to_area_density_times_area) {
   Fabric fabric;
   const Grid g = make_grid(9, 0.3, fabric);
   double mass = 0;
-  for (double m : g.mesh.mass) mass += m;
+  for (double m : g.mesh.mass)
+    mass += m;
   EXPECT_NEAR(mass, fabric.density_kg_m2 * 0.09, 1e-12);
 }
 

@@ -58,8 +58,10 @@ double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, con
   matrix.multiply(direction, product);
   for (const ContactElement& e : elements) {
     Vec3 s = Vec3::Zero();
-    for (int k = 0; k < e.n; ++k) s += e.weight[k] * direction[e.particle[k]];
-    for (int k = 0; k < e.n; ++k) product[e.particle[k]] += e.weight[k] * (e.stiffness() * s);
+    for (int k = 0; k < e.n; ++k)
+      s += e.weight[k] * direction[e.particle[k]];
+    for (int k = 0; k < e.n; ++k)
+      product[e.particle[k]] += e.weight[k] * (e.stiffness() * s);
   }
   double error = 0, scale = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -94,11 +96,14 @@ Linearised linearised(Effect& effect, const Field& x, double h) {
 
 double dot(const Field& a, const Field& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i].dot(b[i]);
   return sum;
 }
 
-Field along(std::size_t n, const Vec3& d) { return Field(n, d); }
+Field along(std::size_t n, const Vec3& d) {
+  return Field(n, d);
+}
 
 /// The damping of an effect at rest is that share of its stiffness, and nothing of its force.
 template<class SomeEffect> void expect_damping(double damping_s) {
@@ -112,7 +117,8 @@ template<class SomeEffect> void expect_damping(double damping_s) {
   const Linearised still = linearised(effect, x, 1e30), damped = linearised(effect, x, H);
   const Field k = still.times(v), d = damped.times(v);
   double scale = 0;
-  for (const Vec3& row : k) scale = std::max(scale, row.norm());
+  for (const Vec3& row : k)
+    scale = std::max(scale, row.norm());
   ASSERT_GT(scale, 0) << effect.name();
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_LT((d[i] - k[i] - damping_s / H * k[i]).norm(), 1e-9 * scale) << effect.name();
@@ -178,7 +184,8 @@ TEST(Jacobian, of_weight_is_none) {
 /// Error along the skin's normal of a sheet at a height over a body, m.
 static double contact_error(const TriangleMesh& skin, double height) {
   Grid g = make_grid(6, 0.1);
-  for (Vec3& p : g.x) p.y() += height;
+  for (Vec3& p : g.x)
+    p.y() += height;
   collision::BodyCollider body(skin);
   BodyContactEffect effect(g.mesh, body, {});
   return jacobian_error(effect, g.mesh, g.x, along(36, Vec3::UnitY()), 1e-8);
@@ -190,12 +197,14 @@ TEST(Jacobian, of_body_contact_along_the_skins_normal) {
 }
 
 TEST(Jacobian, of_edges_of_the_cloth_over_an_edge_of_the_body) {
-  for (double height : {0.0012, 0.0004}) EXPECT_LT(contact_error(roof(), height), 1e-4) << height;
+  for (double height : {0.0012, 0.0004})
+    EXPECT_LT(contact_error(roof(), height), 1e-4) << height;
 }
 
 TEST(Jacobian, of_friction_that_sticks_along_the_skin) {
   Grid g = make_grid(6, 0.1);
-  for (Vec3& p : g.x) p.y() += 0.002;
+  for (Vec3& p : g.x)
+    p.y() += 0.002;
   collision::BodyCollider body(plate());
   BodyContactOptions options;
   options.friction = 0.5;
@@ -215,7 +224,8 @@ TEST(Jacobian, of_self_contact_of_edges_that_cross) {
       t.particle[k] = 3 * of + k;
       t.flat[k] = 0.05 * Vec2(std::cos(angle), std::sin(angle));
       x.emplace_back(t.flat[k].x(), of * 0.0015, -t.flat[k].y());
-      if (of) up[3 + k] = Vec3::UnitY();
+      if (of)
+        up[3 + k] = Vec3::UnitY();
     }
     triangles.push_back(t);
   }
@@ -241,7 +251,8 @@ TEST(Jacobian, of_damping_takes_the_power_with_which_stretched_springs_change_le
   constexpr double H = 0.02, STEP = 1e-6;
   for (double stretch : {0.8, 1.3}) {
     Field x = jittered(g.x, 0.002, 12);
-    for (Vec3& p : x) p *= stretch;
+    for (Vec3& p : x)
+      p *= stretch;
     const Field v = random_field(x.size(), 13);
     double power = 0; // W
     for (const EdgeSpring& s : g.mesh.springs) {
@@ -267,7 +278,8 @@ TEST(Jacobian, of_wind_makes_its_force_that_of_the_velocity_at_the_steps_end) {
   const Vec3 v(-0.5, 1.5, 0.3); // of all the cloth
   Field x = jittered(g.x, 0.01, 14);
   wind.begin_step(x, H);
-  for (Vec3& p : x) p += H * v;
+  for (Vec3& p : x)
+    p += H * v;
   wind.begin_step(x, H);
   const Linearised air = linearised(wind, x, H);
   const Field carried = air.times(along(9, H * options.velocity)),
@@ -302,7 +314,8 @@ TEST(Jacobian, one_percent_compression_makes_the_papers_whole_matrix_indefinite)
   undamped.damping_s = 0;
   const Grid g = make_grid(5, 0.1, undamped);
   Field x = g.x;
-  for (Vec3& p : x) p *= 0.99;
+  for (Vec3& p : x)
+    p *= 0.99;
   const double h = 1.0 / 30;
   for (bool clamp : {false, true}) {
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(75, 75);
@@ -316,7 +329,9 @@ TEST(Jacobian, one_percent_compression_makes_the_papers_whole_matrix_indefinite)
       a.block<3, 3>(3 * s.j, 3 * s.i) -= k;
     }
     const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()[0];
-    if (clamp) EXPECT_GT(least, 0);
-    else EXPECT_LT(least, -0.1);
+    if (clamp)
+      EXPECT_GT(least, 0);
+    else
+      EXPECT_LT(least, -0.1);
   }
 }

@@ -33,9 +33,11 @@ Grid make_uneven_grid(int n, double size, const Fabric& fabric, std::uint64_t se
   }
   std::vector<RestTriangle> triangles = even.mesh.triangles;
   for (RestTriangle& t : triangles)
-    for (int c = 0; c < 3; ++c) t.flat[c] = flat[t.particle[c]];
+    for (int c = 0; c < 3; ++c)
+      t.flat[c] = flat[t.particle[c]];
   Grid out{make_cloth_mesh(n * n, triangles, {fabric}), {}};
-  for (const Vec2& p : flat) out.x.emplace_back(p.x(), 0, -p.y());
+  for (const Vec2& p : flat)
+    out.x.emplace_back(p.x(), 0, -p.y());
   return out;
 }
 
@@ -51,7 +53,9 @@ std::vector<Vec3> rolled(const std::vector<Vec3>& flat, double radius, double an
   return out;
 }
 
-std::vector<double> flat_rest(const Grid& g) { return std::vector<double>(g.mesh.hinges.size()); }
+std::vector<double> flat_rest(const Grid& g) {
+  return std::vector<double>(g.mesh.hinges.size());
+}
 
 double energy_of(const Grid& g, const std::vector<Vec3>& x, bool by_angles) {
   return by_angles ? OrthotropicBendingEffect(g.mesh, flat_rest(g)).energy(x)
@@ -126,7 +130,8 @@ TEST(OrthotropicBending, force_is_minus_energy_gradient) {
     fabric.bend_soft_radius_m = 0.02;
     const Grid g = make_uneven_grid(5, 0.1, fabric, 4);
     std::vector<double> rest(g.mesh.hinges.size());
-    for (std::size_t h = 0; h < rest.size(); ++h) rest[h] = 0.3 * std::sin(static_cast<double>(h));
+    for (std::size_t h = 0; h < rest.size(); ++h)
+      rest[h] = 0.3 * std::sin(static_cast<double>(h));
     OrthotropicBendingEffect vectors(g.mesh), angles(g.mesh, rest);
     expect_gradient(vectors, g.mesh, jittered(g.x, 0.004, 10));
     expect_gradient(angles, g.mesh, jittered(g.x, 0.004, 11));
@@ -141,7 +146,8 @@ TEST(OrthotropicBending, stiffness_is_minus_force_gradient) {
   expect_jacobian(vectors, g.mesh, jittered(g.x, 0.004, 13), 1e-5);
   const auto x = jittered(g.x, 0.003, 14);
   std::vector<double> rest;
-  for (const Hinge& h : g.mesh.hinges) rest.push_back(hinge_angle(h, x));
+  for (const Hinge& h : g.mesh.hinges)
+    rest.push_back(hinge_angle(h, x));
   OrthotropicBendingEffect angles(g.mesh, rest); // exact at the rest angles
   EXPECT_LT(angles.energy(x), 1e-20);
   expect_jacobian(angles, g.mesh, x, 1e-5);
@@ -183,7 +189,8 @@ TEST(OrthotropicBending, a_pressed_fold_has_no_moment) {
   Grid g = make_grid(5, 0.1, directional(1e-5, 1e-5, 1e-5));
   auto x = g.x; // folded along the middle column of particles
   for (Vec3& p : x)
-    if (p.x() > 0.0501) p = Vec3(0.05, p.x() - 0.05, p.z());
+    if (p.x() > 0.0501)
+      p = Vec3(0.05, p.x() - 0.05, p.z());
   EXPECT_GT(energy_of(g, x, true), 1e-6);
   for (Hinge& h : g.mesh.hinges)
     h.pressed = std::abs(g.x[h.particle[0]].x() - 0.05) < 1e-9 &&

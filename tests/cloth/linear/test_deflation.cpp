@@ -19,20 +19,23 @@ constexpr int N = 3 * ROWS;
 
 std::vector<Float4> to_floats(const Eigen::VectorXd& v) {
   std::vector<Float4> out;
-  for (int i = 0; i < ROWS; ++i) out.push_back(to_float(Vec3(v.segment<3>(3 * i))));
+  for (int i = 0; i < ROWS; ++i)
+    out.push_back(to_float(Vec3(v.segment<3>(3 * i))));
   return out;
 }
 
 Eigen::VectorXd to_doubles(const std::vector<Float4>& v) {
   Eigen::VectorXd out(N);
-  for (int i = 0; i < ROWS; ++i) out.segment<3>(3 * i) = to_double(v[i]);
+  for (int i = 0; i < ROWS; ++i)
+    out.segment<3>(3 * i) = to_double(v[i]);
   return out;
 }
 
 Eigen::VectorXd any_vector(std::uint64_t seed) {
   Random random(seed);
   Eigen::VectorXd v(N);
-  for (double& c : v) c = random.uniform(-1, 1);
+  for (double& c : v)
+    c = random.uniform(-1, 1);
   return v;
 }
 
@@ -52,7 +55,8 @@ struct Cloth {
   std::vector<Vec3> weight;
 
   Cloth() {
-    for (Vec3& p : grid.x) p.y() += 0.01 * std::sin(25 * p.x() + 9 * p.z());
+    for (Vec3& p : grid.x)
+      p.y() += 0.01 * std::sin(25 * p.x() + 9 * p.z());
     EdgeSpringEffect springs(grid.mesh);
     BendingEffect bending(grid.mesh);
     Couplings couplings;
@@ -69,7 +73,8 @@ struct Cloth {
       matrix.add_isotropic_diagonal(i, 1e-3 * grid.mesh.mass[i] / grid.mesh.mass[0]);
     matrix.add_isotropic_diagonal(0, 1e3);
     index.build(elements, grid.x.size());
-    for (double m : grid.mesh.mass) weight.emplace_back(0, -9.81 * m, 0);
+    for (double m : grid.mesh.mass)
+      weight.emplace_back(0, -9.81 * m, 0);
   }
   LinearSystem system(bool recurs) const { return {matrix, elements, index, nullptr, recurs}; }
 };
@@ -178,7 +183,8 @@ TEST(Deflation, a_start_beyond_the_radius_is_not_taken) {
   const CgResult bounded =
       conjugate_gradient(system, aggregation, cloth.weight, 1e-4, 2000, x, work, radius);
   EXPECT_TRUE(bounded.bounded);
-  for (const Vec3& v : x) EXPECT_LT(v.norm(), (1 + 1e-6) * radius);
+  for (const Vec3& v : x)
+    EXPECT_LT(v.norm(), (1 + 1e-6) * radius);
 }
 
 TEST(Deflation, gives_the_same_bytes_on_any_number_of_threads) {

@@ -27,14 +27,17 @@ System make_system(int n, double h, bool sheared = false) {
   System s;
   s.grid = make_grid(n, 1.0);
   Random random(3);
-  for (Vec3& p : s.grid.x) p.y() += random.uniform(-0.002, 0.002);
+  for (Vec3& p : s.grid.x)
+    p.y() += random.uniform(-0.002, 0.002);
   EdgeSpringEffect springs(s.grid.mesh);
   BendingEffect bending(s.grid.mesh);
   ShearEffect shear(s.grid.mesh);
   std::vector<Effect*> effects = {&springs, &bending};
-  if (sheared) effects.push_back(&shear);
+  if (sheared)
+    effects.push_back(&shear);
   Couplings couplings;
-  for (const Effect* e : effects) e->declare(couplings);
+  for (const Effect* e : effects)
+    e->declare(couplings);
   s.matrix = BlockMatrix(s.grid.mesh.n_particles, couplings);
   s.rhs.assign(s.grid.x.size(), Vec3::Zero());
   StepContext c{s.grid.x, h, s.rhs, s.matrix, s.elements};
@@ -104,7 +107,8 @@ template<class Multiply> Eigen::MatrixXd columns_of(int n, const Multiply& multi
     std::vector<Vec3> x(n, Vec3::Zero()), y(n);
     x[c / 3][c % 3] = 1;
     multiply(x, y);
-    for (int i = 0; i < n; ++i) a.block<3, 1>(3 * i, c) = y[i];
+    for (int i = 0; i < n; ++i)
+      a.block<3, 1>(3 * i, c) = y[i];
   }
   return a;
 }
@@ -130,7 +134,8 @@ TEST(BlockMatrix, is_the_same_matrix_in_all_its_forms) {
     for (const FloatRows* f : {&single, &of_rows}) {
       const Eigen::MatrixXd c = columns_of(n, [&](const auto& x, auto& y) {
         std::vector<Float4> single_x(n);
-        for (int i = 0; i < n; ++i) single_x[i] = to_float(x[i]);
+        for (int i = 0; i < n; ++i)
+          single_x[i] = to_float(x[i]);
         f->multiply(single_x, [&](std::size_t i, Float4 row) { y[i] = to_double(row); });
       });
       EXPECT_LT((c - a).norm(), 1e-6 * a.norm());
@@ -147,7 +152,8 @@ TEST(FloatRows, gives_the_same_bytes_with_wide_registers_and_without) {
     Random random(5);
     for (Float4& v : x) {
       Vec3 p;
-      for (double& c : p) c = random.uniform(-1, 1);
+      for (double& c : p)
+        c = random.uniform(-1, 1);
       v = to_float(p);
     }
     const FloatRows rows = to_float(s.matrix);
@@ -216,7 +222,8 @@ TEST(Factorisation, solves_the_same_system_contacts_too_at_once) {
     e.n = 3;
     for (int i = 0; i < e.n; ++i)
       e.particle[i] = static_cast<int>(random.uniform(0, 1) * (s.matrix.size() - 1));
-    if (k % 10 == 0) e.particle[2] = e.particle[0];
+    if (k % 10 == 0)
+      e.particle[2] = e.particle[0];
     e.weight = {0.5, 0.3, -0.8, 0};
     e.normal = Vec3{random.uniform(-1, 1), random.uniform(-1, 1), 2}.normalized();
     e.normal_stiffness = 300;
@@ -296,13 +303,15 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
   ContactIndex index;
   index.build(s.elements, s.matrix.size());
   BlockMatrix whole = s.matrix;
-  for (int i = 0; i < whole.size(); ++i) whole.add_isotropic_diagonal(i, -20);
+  for (int i = 0; i < whole.size(); ++i)
+    whole.add_isotropic_diagonal(i, -20);
   const LinearSystem definite{s.matrix, s.elements, index},
       indefinite{s.matrix, s.elements, index, &whole};
   const double radius = 0.001;
   const auto longest = [](const std::vector<Vec3>& x) {
     double most = 0;
-    for (const Vec3& v : x) most = std::max(most, v.norm());
+    for (const Vec3& v : x)
+      most = std::max(most, v.norm());
     return most;
   };
   BlockJacobi jacobi;
@@ -320,7 +329,8 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
       EXPECT_LT(longest(x), (1 + 1e-6) * radius);
       EXPECT_GT(longest(x), 0.5 * radius);
       double falls = 0;
-      for (std::size_t i = 0; i < x.size(); ++i) falls += x[i].dot(s.rhs[i]);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        falls += x[i].dot(s.rhs[i]);
       EXPECT_GT(falls, 0);
       const CgResult free =
           conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work);
@@ -342,7 +352,8 @@ TEST(ConjugateGradient, ends_at_a_share_of_the_error_in_the_energy_norm) {
   ASSERT_TRUE(conjugate_gradient(system, aggregation, s.rhs, 1e-9, 5000, exact, work).converged);
   const auto error = [&](const std::vector<Vec3>& at) { // in the energy norm
     std::vector<Vec3> off(exact);
-    for (std::size_t i = 0; i < at.size(); ++i) off[i] -= at[i];
+    for (std::size_t i = 0; i < at.size(); ++i)
+      off[i] -= at[i];
     return std::sqrt(system.multiply(off, product, work.pull, part));
   };
   const double all = error(std::vector<Vec3>(exact.size(), Vec3::Zero()));
@@ -378,7 +389,8 @@ TEST(ConjugateGradient, cut_short_keeps_what_it_has_though_the_residual_grew) {
     aggregation.update(system);
     grew += conjugate_gradient(system, aggregation, s.rhs, 1e-9, iterations, x, work).residual > 1;
     double energy = 0.5 * system.multiply(x, product, work.pull, part);
-    for (std::size_t i = 0; i < x.size(); ++i) energy -= x[i].dot(s.rhs[i]);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      energy -= x[i].dot(s.rhs[i]);
     EXPECT_LT(energy, least) << iterations;
     least = energy;
   }

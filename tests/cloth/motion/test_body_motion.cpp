@@ -45,7 +45,8 @@ TriangleMesh slab(double half, int n) {
 }
 
 Grid lifted(Grid g) {
-  for (Vec3& p : g.x) p += Vec3(-0.05, 0.004, 0.05);
+  for (Vec3& p : g.x)
+    p += Vec3(-0.05, 0.004, 0.05);
   return g;
 }
 
@@ -64,12 +65,14 @@ struct Table {
   }
   std::vector<Vec3> moved(const Vec3& by) const {
     std::vector<Vec3> x = skin.positions;
-    for (Vec3& p : x) p += by;
+    for (Vec3& p : x)
+      p += by;
     return x;
   }
   Vec3 middle() const {
     Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : solver.x()) sum += p / static_cast<double>(solver.x().size());
+    for (const Vec3& p : solver.x())
+      sum += p / static_cast<double>(solver.x().size());
     return sum;
   }
 };
@@ -96,9 +99,11 @@ TEST(BodyMotion, cloth_on_a_table_that_is_carried_slowly_goes_with_it_by_frictio
   StepOptions o;
   o.inertia = 1;
   o.cg_tolerance = 1e-6;
-  for (int k = 0; k < 30; ++k) motion.advance(t.skin.positions, o);
+  for (int k = 0; k < 30; ++k)
+    motion.advance(t.skin.positions, o);
   const Vec3 before = t.middle();
-  for (int k = 1; k <= 60; ++k) motion.advance(t.moved(Vec3(0.05 * k / 60, 0.02 * k / 60, 0)), o);
+  for (int k = 1; k <= 60; ++k)
+    motion.advance(t.moved(Vec3(0.05 * k / 60, 0.02 * k / 60, 0)), o);
   EXPECT_NEAR(t.middle().x() - before.x(), 0.05, 0.002);
   EXPECT_NEAR(t.middle().y() - before.y(), 0.02, 0.002);
 }
@@ -151,10 +156,11 @@ Vec3 turning(const Vec3& p, double angle, double up) {
 }
 
 void add_slab(TriangleMesh& skin, const TriangleMesh& slab, const Vec3& at) {
-  const int first = static_cast<int>(skin.positions.size());
+  const int first = std::ssize(skin.positions);
   for (const Triangle& t : slab.triangles)
     skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  for (const Vec3& p : slab.positions) skin.positions.push_back(p + at);
+  for (const Vec3& p : slab.positions)
+    skin.positions.push_back(p + at);
 }
 
 } // namespace
@@ -174,7 +180,8 @@ TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_
       start.positions[v].y() += v < below ? -0.03 : 0.05;
     collision::BodyCollider body(start);
     Grid grid = make_grid(14, 0.26);
-    for (Vec3& p : grid.x) p += Vec3(-0.13, 0.0045 + 0.0012 * random.uniform(-1, 1), 0.13);
+    for (Vec3& p : grid.x)
+      p += Vec3(-0.13, 0.0045 + 0.0012 * random.uniform(-1, 1), 0.13);
     BareContact contact(grid.mesh, body);
     contact.energy(grid.x);
     for (int part = 0; part < 40; ++part) {
@@ -191,10 +198,13 @@ TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_
       const double fraction =
           contact.effect.collision_free_step_fraction(grid.x, displacement, predictor);
       ASSERT_GT(fraction, 0);
-      for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += fraction * displacement[v];
-      for (Vec3& p : predictor) p *= fraction;
+      for (std::size_t v = 0; v < positions.size(); ++v)
+        positions[v] += fraction * displacement[v];
+      for (Vec3& p : predictor)
+        p *= fraction;
       contact.effect.move_body(positions, grid.x, predictor);
-      for (std::size_t i = 0; i < grid.x.size(); ++i) grid.x[i] += predictor[i];
+      for (std::size_t i = 0; i < grid.x.size(); ++i)
+        grid.x[i] += predictor[i];
       const double kept = contact.energy(grid.x);
       BareContact anew(grid.mesh, body);
       const double found = anew.energy(grid.x);
@@ -213,7 +223,8 @@ TEST(BodyMotion, cloth_that_turns_with_its_body_goes_in_few_parts) {
   const TriangleMesh skin = slab(0.2, 16);
   collision::BodyCollider body(skin);
   Grid grid = make_grid(14, 0.26);
-  for (Vec3& p : grid.x) p += Vec3(-0.13, 0.003, 0.13);
+  for (Vec3& p : grid.x)
+    p += Vec3(-0.13, 0.003, 0.13);
   ClothSolver solver(grid.mesh, grid.x);
   solver.emplace<EdgeSpringEffect>(grid.mesh);
   BodyContactOptions options;
@@ -225,7 +236,8 @@ TEST(BodyMotion, cloth_that_turns_with_its_body_goes_in_few_parts) {
   o.inertia = 1;
   o.h = 1.0 / 60;
   std::vector<Vec3> target = skin.positions;
-  for (int k = 0; k < 20; ++k) motion.advance(target, o); // comes to lie
+  for (int k = 0; k < 20; ++k)
+    motion.advance(target, o); // comes to lie
   motion.parts = 0;
   for (int k = 1; k <= 20; ++k) {
     const double angle = 0.002 * k * k; // corners go up to 14 mm in a step
@@ -247,7 +259,8 @@ TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
   const Grid one = make_grid(N, 0.12);
   std::vector<RestTriangle> triangles = one.mesh.triangles;
   for (RestTriangle t : one.mesh.triangles) {
-    for (int& v : t.particle) v += LAYER;
+    for (int& v : t.particle)
+      v += LAYER;
     triangles.push_back(t);
   }
   const ClothMesh mesh = make_cloth_mesh(2 * LAYER, triangles, {Fabric{}});
@@ -257,7 +270,8 @@ TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
     const double low = random.uniform(0.003, 0.009), gap = random.uniform(0.0021, 0.006),
                  high = random.uniform(0.003, 0.009), rise = random.uniform(0.01, 0.06);
     const double bend = random.uniform(0, 0.05), bend_below = random.uniform(0, 0.05);
-    if (bend < bend_below) continue;
+    if (bend < bend_below)
+      continue;
     TriangleMesh skin = slab(0.2, 10);
     const std::size_t coming = skin.positions.size();
     add_slab(skin, slab(0.2, 10), Vec3(0, 0.05 + low + gap + high, 0)); // stays, above the layers
@@ -282,7 +296,8 @@ TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
     o.largest_move_m = 1e-9;
     std::vector<Vec3> target = skin.positions;
     motion.advance(target, o); // contact knows the cloth from a first step
-    for (std::size_t v = 0; v < coming; ++v) target[v].y() += rise;
+    for (std::size_t v = 0; v < coming; ++v)
+      target[v].y() += rise;
     struct Enough {}; // of one part, before the cloth's own step
     const auto look = [&](const StepOptions&) -> StepResult {
       EXPECT_TRUE(collision::self_intersections(solver.x(), faces,

@@ -27,7 +27,8 @@ struct Rest {
 Rest come_to_rest(double inset, bool momentum, bool whole = false) {
   const int n = 32;
   Grid cloth = make_grid(n, 0.4);
-  for (Vec3& p : cloth.x) p.y() += 0.004 * std::sin(40 * p.x()) * std::cos(23 * p.z());
+  for (Vec3& p : cloth.x)
+    p.y() += 0.004 * std::sin(40 * p.x()) * std::cos(23 * p.z());
   ClothSolver solver(cloth.mesh, cloth.x);
   auto& springs = solver.emplace<EdgeSpringEffect>(cloth.mesh);
   auto& bending = solver.emplace<BendingEffect>(cloth.mesh);
@@ -82,7 +83,8 @@ public:
   }
   double energy(const std::vector<Vec3>& x) const override {
     double sum = 0;
-    for (std::size_t i = 0; i < m_home.size(); ++i) sum += 0.5 * (x[i] - m_home[i]).squaredNorm();
+    for (std::size_t i = 0; i < m_home.size(); ++i)
+      sum += 0.5 * (x[i] - m_home[i]).squaredNorm();
     return sum;
   }
 
@@ -107,7 +109,8 @@ public:
 TEST(LineSearch, does_not_wait_for_a_particle_that_is_wedged) {
   const Grid cloth = make_grid(6, 0.1);
   std::vector<Vec3> start = cloth.x;
-  for (Vec3& p : start) p.y() += 0.001;
+  for (Vec3& p : start)
+    p.y() += 0.001;
   ClothSolver solver(cloth.mesh, start);
   auto& spring = solver.emplace<HalfKnownSpring>(cloth.x);
   solver.emplace<Wedge>();
@@ -115,14 +118,16 @@ TEST(LineSearch, does_not_wait_for_a_particle_that_is_wedged) {
   options.h = 100;
   options.line_search = true;
   const double before = spring.energy(start);
-  for (int k = 0; k < 20; ++k) solver.step(options);
+  for (int k = 0; k < 20; ++k)
+    solver.step(options);
   EXPECT_LT(spring.energy(solver.x()), 1e-2 * before);
 }
 
 TEST(LineSearch, lets_go_of_a_wedged_particle_when_asked) {
   const Grid cloth = make_grid(6, 0.1);
   std::vector<Vec3> start = cloth.x;
-  for (Vec3& p : start) p.y() += 0.001;
+  for (Vec3& p : start)
+    p.y() += 0.001;
   ClothSolver solver(cloth.mesh, start);
   solver.emplace<HalfKnownSpring>(cloth.x);
   Effect& wedge = solver.emplace<Wedge>();
@@ -130,7 +135,8 @@ TEST(LineSearch, lets_go_of_a_wedged_particle_when_asked) {
   StepOptions options;
   options.h = 100;
   options.line_search = true;
-  for (int k = 0; k < 20; ++k) solver.step(options);
+  for (int k = 0; k < 20; ++k)
+    solver.step(options);
   solver.remove(wedge); // what wedged it is gone, and the search does not know
   solver.emplace<PinsEffect>(std::vector<Pin>{{0, cloth.x[0] + Vec3(0, 0.01, 0)}});
   solver.step(options);
@@ -144,7 +150,8 @@ TEST(LineSearch, lets_go_of_a_wedged_particle_when_asked) {
 TEST(LineSearch, ends_the_to_and_fro_of_steps_that_each_take_the_last_one_back) {
   const Grid cloth = make_grid(4, 0.1);
   std::vector<Vec3> start = cloth.x;
-  for (Vec3& p : start) p.y() += 0.001;
+  for (Vec3& p : start)
+    p.y() += 0.001;
   for (bool momentum : {false, true}) {
     ClothSolver solver(cloth.mesh, start);
     auto& spring = solver.emplace<HalfKnownSpring>(cloth.x);
@@ -153,7 +160,8 @@ TEST(LineSearch, ends_the_to_and_fro_of_steps_that_each_take_the_last_one_back) 
     options.line_search = true;
     options.momentum = momentum;
     const double before = spring.energy(start);
-    for (int k = 0; k < 12; ++k) solver.step(options);
+    for (int k = 0; k < 12; ++k)
+      solver.step(options);
     EXPECT_LT(spring.energy(solver.x()), 1e-3 * before); // 0.83 without
   }
 }

@@ -39,7 +39,8 @@ struct Swing {
   }
   double energy() const {
     double sum = 0;
-    for (const auto& e : solver.effects()) sum += e->energy(solver.x());
+    for (const auto& e : solver.effects())
+      sum += e->energy(solver.x());
     for (std::size_t i = 0; i < grid.x.size(); ++i)
       sum += 0.5 * grid.mesh.mass[i] * solver.v()[i].squaredNorm();
     return sum;
@@ -70,7 +71,8 @@ TEST(NewtonStep, cloth_that_turns_gains_no_energy_where_one_solve_gives_it_some)
         ASSERT_LE(swing.energy(), energy + 1e-6)
             << "h " << h << " damping " << damping << " step " << k; // J; it falls by 0.02
         energy = swing.energy();
-        for (const Vec3& p : swing.solver.x()) farthest = std::max(farthest, -p.y());
+        for (const Vec3& p : swing.solver.x())
+          farthest = std::max(farthest, -p.y());
       }
       EXPECT_GT(farthest, 0.25) << "and it swings";
     }
@@ -111,7 +113,8 @@ TEST(NewtonStep, a_guard_takes_more_solves_only_where_one_would_gain) {
 TEST(NewtonStep, solves_backward_euler) {
   Swing swing(0);
   const StepOptions o = options_of(1.0 / 60, 40);
-  for (int k = 0; k < 12; ++k) swing.solver.step(o);
+  for (int k = 0; k < 12; ++k)
+    swing.solver.step(o);
   const std::vector<Vec3> x0 = swing.solver.x(), v0 = swing.solver.v();
   const StepResult r = swing.solver.step(o);
   EXPECT_GT(r.newton_iterations, 1);
@@ -120,10 +123,12 @@ TEST(NewtonStep, solves_backward_euler) {
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   std::vector<ContactElement> elements;
   Couplings couplings;
-  for (const auto& e : swing.solver.effects()) e->declare(couplings);
+  for (const auto& e : swing.solver.effects())
+    e->declare(couplings);
   BlockMatrix matrix(swing.grid.mesh.n_particles, couplings);
   StepContext context{x, o.h, force, matrix, elements};
-  for (const auto& e : swing.solver.effects()) e->add(context);
+  for (const auto& e : swing.solver.effects())
+    e->add(context);
   add_forces(elements, force);
   double left = 0, at_first = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -141,7 +146,8 @@ TEST(NewtonStep, a_free_fall_is_one_solve) {
   solver.emplace<EdgeSpringEffect>(grid.mesh);
   solver.emplace<GravityEffect>(grid.mesh, GRAVITY);
   const StepOptions o = options_of(0.01, 10);
-  for (int k = 1; k <= 5; ++k) EXPECT_EQ(solver.step(o).newton_iterations, 1);
+  for (int k = 1; k <= 5; ++k)
+    EXPECT_EQ(solver.step(o).newton_iterations, 1);
   for (std::size_t i = 0; i < grid.x.size(); ++i)
     EXPECT_LT((solver.x()[i] - grid.x[i] - 15 * o.h * o.h * GRAVITY).norm(),
               1e-7); // 1 + 2 + .. + 5
@@ -156,7 +162,8 @@ TEST(NewtonStep, damping_takes_no_momentum) {
   free.solver.shift(std::vector<Vec3>(x.size(), Vec3::Zero()), push);
   const auto momentum = [&] {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < x.size(); ++i) sum += free.grid.mesh.mass[i] * free.solver.v()[i];
+    for (std::size_t i = 0; i < x.size(); ++i)
+      sum += free.grid.mesh.mass[i] * free.solver.v()[i];
     return sum;
   };
   const Vec3 before = momentum();
@@ -197,7 +204,8 @@ TEST(NewtonStep, cloth_that_is_thrown_down_lies_on_the_table_and_on_itself) {
   for (int k = 0; k < 60; ++k) {
     r = solver.step(o);
     ASSERT_TRUE(r.finite);
-    for (const Vec3& p : solver.x()) ASSERT_GT(p.y(), 0) << k;
+    for (const Vec3& p : solver.x())
+      ASSERT_GT(p.y(), 0) << k;
   }
   EXPECT_LT(r.largest_move_m, 2e-4);
 }
@@ -217,7 +225,8 @@ TEST(NewtonStep, a_step_begins_once) {
     auto& counts = swing.solver.emplace<Counts>();
     StepOptions o = options_of(0.1, solves);
     o.guard_energy = true;
-    for (int k = 0; k < 10; ++k) swing.solver.step(o);
+    for (int k = 0; k < 10; ++k)
+      swing.solver.step(o);
     EXPECT_EQ(counts.begun, 10);
     EXPECT_EQ(counts.ended, 10);
     EXPECT_GT(counts.added, 20);

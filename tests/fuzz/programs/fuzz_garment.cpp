@@ -27,7 +27,8 @@ template<class Read> bool is_read(const Read& read) {
     read();
     return true;
   } catch (const Error& e) {
-    if (e.kind() != ErrorKind::INPUT) std::abort();
+    if (e.kind() != ErrorKind::INPUT)
+      std::abort();
     return false;
   }
 }

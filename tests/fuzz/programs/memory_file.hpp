@@ -13,9 +13,12 @@ public:
   /// @param number  of the descriptor, and so the file's name; -1: any
   MemoryFile(const void* data, std::size_t size, int number = -1)
       : m_file(memfd_create("fuzz", 0)) {
-    if (m_file < 0 || write(m_file, data, size) != static_cast<ssize_t>(size)) _exit(3);
-    if (number < 0) return;
-    if (dup2(m_file, number) != number) _exit(3);
+    if (m_file < 0 || write(m_file, data, size) != static_cast<ssize_t>(size))
+      _exit(3);
+    if (number < 0)
+      return;
+    if (dup2(m_file, number) != number)
+      _exit(3);
     close(m_file);
     m_file = number;
   }

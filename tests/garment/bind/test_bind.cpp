@@ -13,14 +13,16 @@ namespace {
 
 double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    most = std::max(most, (a[i] - b[i]).norm());
   return most;
 }
 
 std::set<std::string> frames_used(const Garment& g) {
   std::set<std::string> names;
   for (const auto& weights : g.bind.particles)
-    for (const BindWeight& w : weights) names.insert(g.bind.frames[w.frame]);
+    for (const BindWeight& w : weights)
+      names.insert(g.bind.frames[w.frame]);
   return names;
 }
 
@@ -28,7 +30,8 @@ std::set<std::string> frames_used(const Garment& g) {
 double share_inside(const std::vector<Vec3>& positions, const body::Body& body, double depth) {
   const collision::BodyCollider skin(body.skin);
   double n = 0;
-  for (const Vec3& p : positions) n += skin.signed_distance(p, 0.2).distance < -depth;
+  for (const Vec3& p : positions)
+    n += skin.signed_distance(p, 0.2).distance < -depth;
   return n / static_cast<double>(positions.size());
 }
 
@@ -62,12 +65,13 @@ TEST(bind, weights_change_little_from_one_particle_to_the_next) {
   bind_garment(g, body);
   const auto weight_on = [&](int i, int frame) {
     for (const BindWeight& w : g.bind.particles[i])
-      if (w.frame == frame) return w.weight;
+      if (w.frame == frame)
+        return w.weight;
     return 0.0;
   };
   double steepest = 0; // per metre
   for (const auto& [i, j] : edges_of(g.particle_triangles()))
-    for (int k = 0; k < static_cast<int>(g.bind.frames.size()); ++k)
+    for (int k = 0; k < std::ssize(g.bind.frames); ++k)
       steepest = std::max(steepest, std::abs(weight_on(i, k) - weight_on(j, k)) /
                                         std::max((g.position[i] - g.position[j]).norm(), 0.005));
   EXPECT_LT(steepest,
@@ -99,7 +103,8 @@ TEST(bind, sleeves_follow_arms_from_t_to_a_stance_and_back) {
     // The lowest point of a sleeve's end is as near to the wrist as it was.
     const auto nearest = [](const std::vector<Vec3>& x, const Vec3& p) {
       double best = 1e300;
-      for (const Vec3& q : x) best = std::min(best, (q - p).norm());
+      for (const Vec3& q : x)
+        best = std::min(best, (q - p).norm());
       return best;
     };
     for (const char* wrist : {"wrist_l", "wrist_r"})
@@ -186,7 +191,8 @@ TEST(bind, a_sleeveless_top_goes_on_a_body_without_arms) {
                            whole.landmark("axilla_l").y() - 0.02, 0.01);
   bind_garment(g, whole);
   const std::vector<Vec3> placed = place_garment(g, armless);
-  for (const Vec3& p : placed) ASSERT_TRUE(p.allFinite());
+  for (const Vec3& p : placed)
+    ASSERT_TRUE(p.allFinite());
   EXPECT_LT(share_inside(placed, armless, 0.01), 0.03);
 }
 

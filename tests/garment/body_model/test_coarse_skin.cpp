@@ -16,7 +16,9 @@ namespace {
 
 constexpr double TOLERANCE = 3e-4;
 
-body::Body dense_pillar() { return make_pillar(256, 240); } // 123,000 triangles
+body::Body dense_pillar() {
+  return make_pillar(256, 240);
+} // 123,000 triangles
 
 } // namespace
 
@@ -37,7 +39,8 @@ TEST(CoarseSkin, moves_with_the_skin_whose_vertices_it_has) {
   const TriangleMesh skin = dense_pillar().skin;
   const CoarseSkin coarse(skin, TOLERANCE);
   std::vector<Vec3> moved = skin.positions;
-  for (Vec3& p : moved) p = Vec3(p.y(), 2 * p.x(), -p.z());
+  for (Vec3& p : moved)
+    p = Vec3(p.y(), 2 * p.x(), -p.z());
   const std::vector<Vec3> got = coarse.positions(moved);
   ASSERT_EQ(got.size(), coarse.mesh().positions.size());
   for (std::size_t v = 0; v < got.size(); ++v) {
@@ -60,7 +63,8 @@ TEST_P(OnCoarseSkin, cloth_ends_at_rest_on_the_skin_itself_where_it_hung_before)
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 1);
   for (Vec3& p : pillar.skin.positions)
-    for (double& coordinate : p) coordinate += GetParam() * noise(random);
+    for (double& coordinate : p)
+      coordinate += GetParam() * noise(random);
   EXPECT_EQ(CoarseSkin(pillar.skin, TOLERANCE).pays(), GetParam() == 0)
       << "noise takes twice the tolerance";
   const collision::BodyCollider skin(pillar.skin);

@@ -25,7 +25,8 @@ TEST(ExtremityHulls, HullIsClosedOutwardAndHoldsAllPoints) {
   ASSERT_GE(hull.size(), 12u);
   std::map<std::pair<int, int>, int> edges;
   for (const Triangle& t : hull)
-    for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
+    for (int k = 0; k < 3; ++k)
+      ++edges[{t[k], t[(k + 1) % 3]}];
   for (const auto& [edge, count] : edges) {
     EXPECT_EQ(count, 1);
     EXPECT_TRUE(edges.count({edge.second, edge.first}));
@@ -61,7 +62,7 @@ TEST(ExtremityHulls, BodyWithoutHandsStaysAsItIs) {
 body::Body foot() {
   body::Body body;
   const auto box = [&](const Vec3& low, const Vec3& high) {
-    const int first = static_cast<int>(body.skin.positions.size());
+    const int first = std::ssize(body.skin.positions);
     for (int k = 0; k < 8; ++k)
       body.skin.positions.emplace_back((k & 1 ? high : low).x(), (k & 2 ? high : low).y(),
                                        (k & 4 ? high : low).z());
@@ -100,7 +101,8 @@ TEST(ExtremityHulls, ToesAreInAShellThatTheKneeIsNotIn) {
     const Triangle& t = covered.mesh().triangles[f];
     EXPECT_GT(collision::orientation(p[t[0]], p[t[1]], p[t[2]], Vec3(0, 0.01, 0.19)), 0)
         << "what is between the toes is in it";
-    for (int v : t) EXPECT_LT(p[v].y(), 0.1) << "the knee is not";
+    for (int v : t)
+      EXPECT_LT(p[v].y(), 0.1) << "the knee is not";
   }
   EXPECT_FALSE(ExtremityHulls(body, ExtremityHulls::HANDS).has_shells());
   EXPECT_EQ(covered.concerned({{0, 0.01, 0.19}}), unsigned{ExtremityHulls::FEET});

@@ -18,7 +18,7 @@ constexpr double ARM_X = 0.24, ARM_R = 0.03, ELBOW_Y = 1.0, WRIST_Y = 0.85, TIP_
 body::Body pillar_with_arm() {
   body::Body body = make_pillar(48, 40);
   const body::Body other = make_pillar(24, 40);
-  const int first = static_cast<int>(body.skin.positions.size());
+  const int first = std::ssize(body.skin.positions);
   for (const Vec3& p : other.skin.positions) {
     const double share = (p.y() - 0.2) / 1.0, round = std::min(1.0, 4 * std::min(share, 1 - share));
     const Vec3 across = Vec3(p.x(), 0, p.z()).normalized() *
@@ -69,7 +69,8 @@ TEST(UnderArms, a_forearm_drawn_in_is_at_its_elbow) {
     const Vec3& p = body.skin.positions[v];
     if (p.x() > 0.2 && p.y() < ELBOW_Y)
       EXPECT_LT((drawn[v] - body.landmark("elbow_l")).norm(), 0.01);
-    else EXPECT_EQ(drawn[v], p);
+    else
+      EXPECT_EQ(drawn[v], p);
   }
   EXPECT_TRUE(forearms.are_near({{0.3, 0.9, 0.1}, {-0.3, 0.9, -0.1}}));
   EXPECT_FALSE(forearms.are_near({}));
@@ -113,7 +114,8 @@ TEST(UnderArms, what_a_sleeve_is_sewn_around_stays) {
 TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   const body::Body body = pillar_with_arm();
   Garment skirt = make_skirt(0.74, 0.4, 0.03, 1.02, 0.25, 3);
-  for (pattern::PanelInfo& p : skirt.panels.panels) p.part = "lower_body";
+  for (pattern::PanelInfo& p : skirt.panels.panels)
+    p.part = "lower_body";
   const DrapeReport report = drape(skirt, &body, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << stop_text(report);
   const collision::BodyCollider collider(body.skin);
@@ -130,13 +132,15 @@ TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
 TEST(UnderArms, without_contact_no_arm_is_held_up) {
   const body::Body body = pillar_with_arm();
   Garment skirt = make_skirt(0.74, 0.4, 0.05, 1.02, 0.25, 3);
-  for (pattern::PanelInfo& p : skirt.panels.panels) p.part = "lower_body";
+  for (pattern::PanelInfo& p : skirt.panels.panels)
+    p.part = "lower_body";
   DrapeSettings settings;
   settings.effects = "auto,-body_contact";
   settings.max_steps = 260; // it falls
   const DrapeReport report = drape(skirt, &body, settings, silent_reporter());
   EXPECT_FALSE(report.converged);
-  for (const std::string& r : report.repairs) EXPECT_EQ(r.find("forearms"), std::string::npos) << r;
+  for (const std::string& r : report.repairs)
+    EXPECT_EQ(r.find("forearms"), std::string::npos) << r;
 }
 
 TEST(UnderArms, a_run_that_goes_on_while_the_arms_are_up_ends_in_the_same_bytes) {
@@ -144,7 +148,8 @@ TEST(UnderArms, a_run_that_goes_on_while_the_arms_are_up_ends_in_the_same_bytes)
   const std::string file = std::string(SLOPER_BINARY_DIR) + "/arms.checkpoint.json";
   const auto skirt = [] {
     Garment g = make_skirt(0.74, 0.4, 0.05, 1.02, 0.25, 3);
-    for (pattern::PanelInfo& p : g.panels.panels) p.part = "lower_body";
+    for (pattern::PanelInfo& p : g.panels.panels)
+      p.part = "lower_body";
     return g;
   };
   Checkpoints checkpoints;

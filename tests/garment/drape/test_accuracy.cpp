@@ -77,7 +77,8 @@ TEST(
   const body::Body pillar = make_pillar();
   Garment placed = make_skirt(0.76, 0.28, 0.04);
   ASSERT_TRUE(drape(placed, &pillar, preset_settings("standard"), silent_reporter()).converged);
-  for (Vec3& p : placed.position) p = Vec3(1.02 * p.x(), p.y() + 0.01, 1.02 * p.z());
+  for (Vec3& p : placed.position)
+    p = Vec3(1.02 * p.x(), p.y() + 0.01, 1.02 * p.z());
   const auto iterations = [&](double cg_tolerance) {
     Garment cloth = placed;
     DrapeSettings settings = preset_settings("standard");

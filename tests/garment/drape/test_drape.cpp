@@ -19,7 +19,8 @@ TEST(Drape, a_skirt_is_sewn_hangs_at_the_waist_and_comes_to_rest_without_crossin
   EXPECT_TRUE(a.clean());
   EXPECT_LT(a.strain_p99, 0.05);
   double top = 0;
-  for (const Vec3& p : skirt.position) top = std::max(top, p.y());
+  for (const Vec3& p : skirt.position)
+    top = std::max(top, p.y());
   EXPECT_GT(top, 0.9);
 }
 
@@ -43,7 +44,8 @@ TEST(Drape, after_sewing_the_cloth_breathes_until_its_weight_comes_unless_told_n
   for (const bool breathes : {true, false}) {
     Garment skirt = make_skirt(0.75, 0.3, 0.03);
     DrapeSettings settings;
-    if (!breathes) settings.effects = "auto,-pressure";
+    if (!breathes)
+      settings.effects = "auto,-pressure";
     const DrapeReport report = drape(skirt, &pillar, settings, silent_reporter());
     EXPECT_TRUE(report.converged);
     const auto pressure = std::find_if(report.effects.begin(), report.effects.end(),
@@ -62,7 +64,8 @@ TEST(Drape, same_input_gives_the_same_bytes_for_any_number_of_threads) {
     set_thread_count(threads);
     Garment skirt = make_skirt(0.75, 0.3, 0.03);
     drape(skirt, &pillar, {}, silent_reporter());
-    if (hash.empty()) hash = strict_hash(skirt);
+    if (hash.empty())
+      hash = strict_hash(skirt);
     EXPECT_EQ(strict_hash(skirt), hash) << threads << " threads";
   }
   set_thread_count(1);

@@ -47,9 +47,8 @@ Garment draped_skirt(const body::Body& pillar, double edge_length = 0.03,
   for (const pattern::PanelInfo& p : skirt.panels.panels) {
     const double side = p.name == "back" ? -1 : 1;
     for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v) {
-      const Vec2 uv = skirt.panels.pattern[static_cast<std::size_t>(v)];
-      skirt.panels.placed[static_cast<std::size_t>(v)] =
-          Vec3(side * uv.x(), 0.65 + uv.y(), side * 0.2);
+      const Vec2 uv = skirt.panels.pattern[v];
+      skirt.panels.placed[v] = Vec3(side * uv.x(), 0.65 + uv.y(), side * 0.2);
     }
   }
   skirt.materials[""].friction_body = friction;
@@ -73,7 +72,8 @@ FollowReport play(Garment& garment, const body::Body& body, std::vector<std::str
                               },
                               [&] { return at == lines.size(); },
                               [&](const FollowFrame& f, const Garment&) {
-                                if (frames) frames->push_back(f);
+                                if (frames)
+                                  frames->push_back(f);
                               }};
   DrapeSettings settings;
   settings.max_steps = max_steps;
@@ -82,7 +82,8 @@ FollowReport play(Garment& garment, const body::Body& body, std::vector<std::str
 
 double lowest(const Garment& g) {
   double y = 1e300;
-  for (const Vec3& p : g.position) y = std::min(y, p.y());
+  for (const Vec3& p : g.position)
+    y = std::min(y, p.y());
   return y;
 }
 
@@ -90,7 +91,8 @@ double lowest(const Garment& g) {
 /// change it.
 double height(const Garment& g) {
   double y = -1e300;
-  for (const Vec3& p : g.position) y = std::max(y, p.y());
+  for (const Vec3& p : g.position)
+    y = std::max(y, p.y());
   return y - lowest(g);
 }
 
@@ -124,7 +126,8 @@ TEST(Follow, edits_change_rest_lengths_in_place_and_the_cloth_comes_to_the_rest_
   // compared, by distances from the middle.
   const auto middle = [](const Garment& g) {
     Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : g.position) sum += p;
+    for (const Vec3& p : g.position)
+      sum += p;
     return Vec3(sum / static_cast<double>(g.position.size()));
   };
   double sum = 0;
@@ -341,15 +344,13 @@ TEST(Follow, an_elastic_tape_draws_the_cloth_in_along_it_and_nowhere_else) {
     double now = 0, flat = 0;
     for (int f = 0; f < skirt.panels.panels[0].n_triangles; ++f)
       for (std::size_t k = 0; k < 3; ++k) {
-        const Triangle& t = skirt.panels.triangles[static_cast<std::size_t>(f)];
+        const Triangle& t = skirt.panels.triangles[f];
         const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
         const Vec2 p = skirt.panels.pattern[a], q = skirt.panels.pattern[b];
         if (std::abs((q - p).normalized().x()) < 0.95 || std::min(p.y(), q.y()) < low ||
             std::max(p.y(), q.y()) > high)
           continue;
-        now += (skirt.position[static_cast<std::size_t>(skirt.particle_of[a])] -
-                skirt.position[static_cast<std::size_t>(skirt.particle_of[b])])
-                   .norm();
+        now += (skirt.position[skirt.particle_of[a]] - skirt.position[skirt.particle_of[b]]).norm();
         flat += (q - p).norm();
       }
     return now / flat;

@@ -34,9 +34,11 @@ TEST(Layers, merged_garments_come_apart_as_they_were) {
   EXPECT_EQ(merged.particle_triangles().size(),
             before[0].panels.triangles.size() + before[1].panels.triangles.size());
   for (Garment& g : garments)
-    for (Vec3& p : g.position) p.setZero();
+    for (Vec3& p : g.position)
+      p.setZero();
   split_layers(merged, garments);
-  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(garments[k].position, before[k].position);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_EQ(garments[k].position, before[k].position);
 }
 
 TEST(Layers, inner_cloth_outside_of_the_outer_is_tucked_in_until_nothing_crosses) {

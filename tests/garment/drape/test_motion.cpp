@@ -27,8 +27,10 @@ TEST(Motion, a_skirt_on_a_swinging_body_is_clean_in_every_frame_and_at_rest_at_t
         EXPECT_EQ(f.self_intersections, 0U) << f.number;
         EXPECT_FALSE(f.forced) << f.number;
         Vec3 sum = Vec3::Zero();
-        for (const Vec3& p : g.position) sum += p / static_cast<double>(g.position.size());
-        if (frames == 1) first = sum;
+        for (const Vec3& p : g.position)
+          sum += p / static_cast<double>(g.position.size());
+        if (frames == 1)
+          first = sum;
         farthest = std::max(farthest, (sum - first).norm());
       },
       silent_reporter());
@@ -75,11 +77,13 @@ TEST(Motion, cloth_at_rest_sleeps_until_skin_near_it_moves) {
   // swing.
   moves.skin = [&](std::size_t k) {
     std::size_t frame_of_swing = k;
-    if (k >= 10) frame_of_swing = k < 10 + n_still ? 9 : k - n_still;
+    if (k >= 10)
+      frame_of_swing = k < 10 + n_still ? 9 : k - n_still;
     std::vector<Vec3> x = swing.skin(frame_of_swing);
     if (k >= 10 && k < 10 + n_still)
       for (Vec3& p : x)
-        if (p.y() < 0.3) p.x() += 0.0005 * static_cast<double>(k - 9);
+        if (p.y() < 0.3)
+          p.x() += 0.0005 * static_cast<double>(k - 9);
     return x;
   };
   Garment last;
@@ -120,7 +124,8 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
   moves.n_frames = 60;
   moves.skin = [&](std::size_t k) {
     std::vector<Vec3> x = pillar.skin.positions;
-    for (Vec3& p : x) p.z() += shift_at(k);
+    for (Vec3& p : x)
+      p.z() += shift_at(k);
     return x;
   };
   long parts = 0;
@@ -128,8 +133,10 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
       skirt, pillar, moves, {},
       [&](const MotionFrame& f, const Garment& g) {
         EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
-        if (f.number <= 20) parts += f.parts;
-        if (f.number < 50) return;
+        if (f.number <= 20)
+          parts += f.parts;
+        if (f.number < 50)
+          return;
         double off2 = 0;
         for (std::size_t i = 0; i < stood.size(); ++i)
           off2 += (g.position[i] - stood[i] - Vec3(0, 0, shift_at(f.number - 1))).squaredNorm();

@@ -43,7 +43,8 @@ double far_motion(const Garment& a, const Garment& b, const Vec3& from, double r
 Vec3 front_middle(const Garment& g) {
   Vec3 best = g.position[0];
   for (const Vec3& p : g.position)
-    if ((p - Vec3(0, 0.87, 0.2)).norm() < (best - Vec3(0, 0.87, 0.2)).norm()) best = p;
+    if ((p - Vec3(0, 0.87, 0.2)).norm() < (best - Vec3(0, 0.87, 0.2)).norm())
+      best = p;
   return best;
 }
 
@@ -65,7 +66,8 @@ TEST(UntangleOnly, cloth_pressed_into_the_body_comes_out_and_the_rest_stays) {
     Garment g = draped();
     const Vec3 at = front_middle(g);
     for (Vec3& p : g.position)
-      if (const double r = (p - at).norm(); r < 0.06) p.z() -= depth * (1 - r / 0.06);
+      if (const double r = (p - at).norm(); r < 0.06)
+        p.z() -= depth * (1 - r / 0.06);
     ASSERT_GT(audit_on(g, pillar).through.size(), 0U);
     const DrapeReport report = untangle_only(g, &pillar, {}, silent_reporter());
     EXPECT_TRUE(report.converged) << stop_text(report);
@@ -85,12 +87,15 @@ TEST(UntangleOnly, cloth_drawn_through_cloth_comes_out_also_without_a_body) {
   const Garment before = g;
   Vec3 at = Vec3::Zero();
   for (const Vec3& p : g.position)
-    if (p.z() > at.z()) at = p;
+    if (p.z() > at.z())
+      at = p;
   double back = 0; // the way from the front to the back there
   for (const Vec3& p : g.position)
-    if ((p - at).head<2>().norm() < 0.03) back = std::max(back, at.z() - p.z());
+    if ((p - at).head<2>().norm() < 0.03)
+      back = std::max(back, at.z() - p.z());
   for (Vec3& p : g.position)
-    if (const double r = (p - at).norm(); r < 0.06) p.z() -= (back + 0.01) * (1 - r / 0.06);
+    if (const double r = (p - at).norm(); r < 0.06)
+      p.z() -= (back + 0.01) * (1 - r / 0.06);
   ASSERT_GT(audit(g, nullptr).self.size(), 0U);
   const DrapeReport report = untangle_only(g, nullptr, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << stop_text(report) << ": " << report.quality["untangled"].dump();
@@ -100,7 +105,8 @@ TEST(UntangleOnly, cloth_drawn_through_cloth_comes_out_also_without_a_body) {
 TEST(UntangleOnly, a_garment_wholly_inside_the_body_comes_out_by_way_of_a_body_drawn_in) {
   const body::Body pillar = pillar_with_bones();
   Garment g = draped();
-  for (Vec3& p : g.position) p = Vec3(0.6 * p.x(), p.y(), 0.6 * p.z());
+  for (Vec3& p : g.position)
+    p = Vec3(0.6 * p.x(), p.y(), 0.6 * p.z());
   const DrapeReport report = untangle_only(g, &pillar, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << stop_text(report) << ": " << report.quality["untangled"].dump();
   EXPECT_TRUE(audit_on(g, pillar).clean());

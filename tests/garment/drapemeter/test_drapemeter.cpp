@@ -51,7 +51,8 @@ TEST(Shadow, of_a_tilted_square_is_its_projection_less_the_hole) {
 }
 
 TEST(Folds, are_counted_where_they_swing_far_enough) {
-  for (int folds : {2, 5, 8}) EXPECT_EQ(count_folds(waved(0.12, 0.01, folds)), folds);
+  for (int folds : {2, 5, 8})
+    EXPECT_EQ(count_folds(waved(0.12, 0.01, folds)), folds);
   EXPECT_EQ(count_folds(waved(0.12, 0.001, 5)), 0) << "a ripple";
   EXPECT_EQ(count_folds({}), 0);
 }
@@ -72,7 +73,7 @@ TEST(Silhouette, has_the_coefficient_and_the_folds_of_what_was_drawn_through_noi
   EXPECT_NEAR(noisy.coefficient, drape.coefficient, 0.01);
   EXPECT_EQ(noisy.folds, clean.folds);
   EXPECT_NEAR(noisy.m_per_pixel, 0.33 / 600, 0.005 * 0.33 / 600);
-  for (int k = 0; k + 3 < static_cast<int>(picture.rgba.size()); k += 4) // white on black
+  for (int k = 0; k + 3 < std::ssize(picture.rgba); k += 4) // white on black
     for (int c = 0; c < 3; ++c)
       picture.rgba[k + c] = static_cast<std::uint8_t>(255 - picture.rgba[k + c]);
   EXPECT_NEAR(measure_silhouette(picture, "negative", {}).coefficient, drape.coefficient, 0.01);
@@ -111,7 +112,8 @@ TEST(MaterialFit, overhangs_give_directions_with_the_errors_of_a_ruler) {
 }
 
 TEST(MaterialFit, bending_is_found_within_15_percent_from_noisy_silhouettes_of_another_mesh) {
-  if (!std::getenv("SLOPER_VALIDATION")) GTEST_SKIP() << "slow: run it with make validation";
+  if (!std::getenv("SLOPER_VALIDATION"))
+    GTEST_SKIP() << "slow: run it with make validation";
   set_thread_count(2);
   // Six pictures of each; fabrics, seeds and mesh are not those that the fit drapes.
   DrapemeterSetup finer;

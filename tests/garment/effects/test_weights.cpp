@@ -46,9 +46,11 @@ double carried(const std::string& scene) {
   const DrapeReport report = drape(g, nullptr, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << stop_text(report);
   double top = -1, force = 0;
-  for (const Vec3& p : start) top = std::max(top, p.y());
+  for (const Vec3& p : start)
+    top = std::max(top, p.y());
   for (std::size_t i = 0; i < start.size(); ++i)
-    if (start[i].y() > top - 1e-9) force += 1000 * (start[i].y() - g.position[i].y());
+    if (start[i].y() > top - 1e-9)
+      force += 1000 * (start[i].y() - g.position[i].y());
   return force;
 }
 

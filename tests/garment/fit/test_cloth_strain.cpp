@@ -24,7 +24,7 @@ Garment tube(double radius, double around, double along) {
   for (int r = 0; r <= rows; ++r)
     for (int c = 0; c <= n; ++c) {
       const double angle = 2 * M_PI * c / n;
-      g.particle_of.push_back(static_cast<int>(g.position.size()));
+      g.particle_of.push_back(std::ssize(g.position));
       g.position.emplace_back(radius * std::sin(angle), 0.4 * r / rows, radius * std::cos(angle));
       g.panels.pattern.emplace_back(2 * M_PI * radius / (1 + around) * c / n,
                                     0.4 / (1 + along) * r / rows);
@@ -79,7 +79,8 @@ TEST(cloth_strain, threads_and_diagonals_of_a_stretched_tube_are_those_that_were
 TEST(cloth_strain, edited_rest_lengths_count) {
   Garment g = tube(0.15, 0, 0);
   g.rest_scale.assign(g.panels.triangles.size(), {1 / 1.05, 1 / 1.05, 1 / 1.05});
-  for (const TriangleStrain& s : triangle_strains(g, g.position)) EXPECT_NEAR(s.warp, 0.05, 1e-9);
+  for (const TriangleStrain& s : triangle_strains(g, g.position))
+    EXPECT_NEAR(s.warp, 0.05, 1e-9);
 }
 
 TEST(cloth_strain, the_audit_tells_the_same_strain) {

@@ -32,14 +32,16 @@ Dressed dressed(body::Body body, Garment garment, const FitPolicy& policy = stan
 
 const FitRow* row(const FitReport& report, const std::string& name) {
   for (const FitRow& r : report.rows)
-    if (r.name == name) return &r;
+    if (r.name == name)
+      return &r;
   return nullptr;
 }
 
 /// Why a girth was left out, for messages.
 std::string left_out(const FitReport& report, const std::string& name) {
   for (const auto& [girth, why] : report.left_out)
-    if (girth == name) return name + ": " + why;
+    if (girth == name)
+      return name + ": " + why;
   return name;
 }
 
@@ -61,7 +63,8 @@ SectionChain arc(double a, double b, double radius, bool backwards = false) {
     chain.length += (q - p).norm();
     chain.rest_length += (q - p).norm();
   }
-  if (backwards) chain.reverse();
+  if (backwards)
+    chain.reverse();
   return chain;
 }
 
@@ -218,7 +221,8 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
 TEST(fit, a_shirt_is_one_on_a_body_without_arm_pits_too) {
   body::Body body = measured("f-165-a");
   const Garment shirt = skin_shirt(body, 0.01);
-  for (const char* name : {"axilla_l", "axilla_r"}) body.landmarks.erase(name);
+  for (const char* name : {"axilla_l", "axilla_r"})
+    body.landmarks.erase(name);
   EXPECT_EQ(dressed(body, shirt).report.garment_class, "top");
 }
 
@@ -229,7 +233,7 @@ TEST(fit, a_dress_is_one_whether_its_hem_is_long_or_short) {
     std::vector<Vec3> position = shirt.position;
     position.insert(position.end(), skirt.position.begin(), skirt.position.end());
     std::vector<Triangle> faces = shirt.panels.triangles;
-    const int first = static_cast<int>(shirt.position.size());
+    const int first = std::ssize(shirt.position);
     for (const Triangle& t : skirt.panels.triangles)
       if (skirt.position[t[0]].y() > body.landmark("crotch").y() - below_crotch)
         faces.push_back({t[0] + first, t[1] + first, t[2] + first});
@@ -260,7 +264,8 @@ TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
   const body::Body body = measured("f-165-a");
   Garment trousers = dressed(body, skin_trousers(body)).garment;
   const std::vector<Vec3> placed = trousers.position;
-  for (Vec3& p : trousers.position) p.y() -= 3;
+  for (Vec3& p : trousers.position)
+    p.y() -= 3;
   const collision::BodyCollider skin(body.skin);
   const FitReport slid = fit_garment(trousers, body, skin, standard_fit_policy(), &placed);
   EXPECT_TRUE(slid.rows.empty());
@@ -273,7 +278,8 @@ TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
 TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an apron
   const body::Body body = measured("f-165-a");
   Garment trousers = dressed(body, skin_trousers(body)).garment;
-  for (Vec3& p : trousers.position) p.y() += 3;
+  for (Vec3& p : trousers.position)
+    p.y() += 3;
   const std::vector<Vec3> placed = trousers.position;
   const FitReport lying = fit_garment(trousers, body, collision::BodyCollider(body.skin),
                                       standard_fit_policy(), &placed);
@@ -300,7 +306,8 @@ TEST(fit, sleeves_and_legs_are_covered_to_where_they_end) {
 TEST(fit, a_skirt_that_hangs_askew_is_out_of_balance) {
   const body::Body body = measured("f-165-a");
   Garment g = tube_skirt(body);
-  for (Vec3& p : g.position) p.y() += 0.1 * p.z(); // front higher
+  for (Vec3& p : g.position)
+    p.y() += 0.1 * p.z(); // front higher
   const Dressed d = dressed(body, g);
   EXPECT_EQ(d.report.garment_class, "skirt");
   const auto& hems = d.report.lines.hems;
@@ -324,10 +331,12 @@ TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
   const collision::BodyCollider skin(body.skin);
   const auto sunk = [&](double distance, double top_edge) { // m
     Garment g = tube_skirt(body);
-    for (Vec3& p : g.position) p.y() += top_edge - top;
+    for (Vec3& p : g.position)
+      p.y() += top_edge - top;
     bind_garment(g, body);
     std::vector<Vec3> placed = g.position;
-    for (Vec3& p : placed) p.y() += distance;
+    for (Vec3& p : placed)
+      p.y() += distance;
     const FitReport report = fit_garment(g, body, skin, policy, &placed);
     EXPECT_EQ(report.garment_class, "skirt");
     EXPECT_NEAR(report.slip_m, distance, 1e-9);
@@ -348,7 +357,8 @@ TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
   Garment g = tube_skirt(body);
   bind_garment(g, body);
   std::vector<Vec3> placed = g.position;
-  for (Vec3& p : placed) p.y() += 0.15;
+  for (Vec3& p : placed)
+    p.y() += 0.15;
   EXPECT_EQ(fit_garment(g, body, skin, policy, &placed).reason, "slides down by 15.0 cm");
   policy.own.all.slip_m.reset();
   policy.refuse_loose = true;
@@ -371,7 +381,8 @@ TEST(fit, legs_that_reach_below_the_soles_are_too_long) {
           return a.y() < b.y();
         })->y();
     for (Vec3& p : position)
-      if (p.y() < knee) p.y() -= by * (knee - p.y()) / (knee - hem);
+      if (p.y() < knee)
+        p.y() -= by * (knee - p.y()) / (knee - hem);
     return std::pair(dressed(body, sheet(position, trousers.panels.triangles), policy).report,
                      hem - by);
   };
@@ -531,7 +542,8 @@ TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
   EXPECT_EQ(fit_garment(tent, body, skin, standard_fit_policy()).verdict, FitVerdict::TOO_LARGE);
   EXPECT_TRUE(
       fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", tent.body_girths_m).fits);
-  for (auto& [name, girth] : stouter) girth *= 1.6; // cut for a much stouter person
+  for (auto& [name, girth] : stouter)
+    girth *= 1.6; // cut for a much stouter person
   const FitReport report =
       fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", stouter);
   EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE) << report.reason;

@@ -66,7 +66,8 @@ TEST(fit_probability, of_people_whose_girth_is_as_uncertain_as_said_so_many_fit)
     const double truth = -0.06 + 0.06 * random.uniform(), measured = truth + 0.01 * student();
     const bool fits = measured >= limits.too_small_ease;
     const double p = probability_of(report_of(bust(measured), fits, "placed")).fits;
-    if (p < 0.6 || p > 0.8) continue;
+    if (p < 0.6 || p > 0.8)
+      continue;
     ++people;
     said += p;
     fit += truth >= limits.too_small_ease;

@@ -23,7 +23,7 @@ Garment two_squares(double stretch) {
     for (const auto& [x, y] :
          {std::pair{0.0, 0.0}, std::pair{0.2, 0.0}, std::pair{0.2, 0.2}, std::pair{0.0, 0.2}}) {
       g.panels.pattern.emplace_back(x, y);
-      g.particle_of.push_back(static_cast<int>(g.position.size()));
+      g.particle_of.push_back(std::ssize(g.position));
       g.position.emplace_back(k + x * (k ? 1 + stretch : 1), 1 + y, 0);
     }
     g.panels.triangles.push_back({4 * k, 4 * k + 1, 4 * k + 2});
@@ -100,14 +100,15 @@ TEST(stretch, one_place_is_told_though_the_rest_hangs_as_it_should) {
     patch.n_triangles = 1;
     for (const Vec2& p : {Vec2(0, 0), Vec2(0.01, 0), Vec2(0, 0.01)}) {
       g.panels.pattern.push_back(p);
-      g.particle_of.push_back(static_cast<int>(g.position.size()));
+      g.particle_of.push_back(std::ssize(g.position));
       g.position.emplace_back((1 + stretch) * p.x(), 2 + p.y(), 0);
     }
     g.panels.triangles.push_back({8, 9, 10});
     g.panels.panels.push_back(patch);
     const auto text = stretched_place(stretch_of(g));
     ASSERT_EQ(text.has_value(), stretch > 0.3);
-    if (!text) continue;
+    if (!text)
+      continue;
     EXPECT_NE(text->find("stretched by 36 %, in panel patch at (0.0"), std::string::npos) << *text;
     EXPECT_NE(text->find("99 % of the cloth is by less than 0.0 %"), std::string::npos) << *text;
   }

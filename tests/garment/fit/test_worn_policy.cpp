@@ -60,12 +60,16 @@ TEST(worn_policy, a_garment_fits_the_body_on_which_it_came_to_rest_without_a_fin
     const double bound =
         std::max(0.1, 100 / std::min(fabric.stretch_warp_n_m, fabric.stretch_weft_n_m));
     const double strain = gap > 0.01 ? 0 : 0.95 * bound / (1 + bound) * random.uniform();
-    if (k % 4 < 2) g = skin_shirt(wearer(), gap, strain);
-    else if (k % 4 == 2) g = skin_trousers(wearer(), gap, strain);
-    else g = tube_skirt(wearer(), 0.02 + 0.5 * random.uniform());
+    if (k % 4 < 2)
+      g = skin_shirt(wearer(), gap, strain);
+    else if (k % 4 == 2)
+      g = skin_trousers(wearer(), gap, strain);
+    else
+      g = tube_skirt(wearer(), 0.02 + 0.5 * random.uniform());
     g = of_fabric(std::move(g), fabric);
     const Stretch worn = stretch_of(g);
-    if (worn.p99 > worn.bound) continue;
+    if (worn.p99 > worn.bound)
+      continue;
     const FitReport report = on_its_own_body(g, policy_for(g));
     EXPECT_TRUE(report.fits) << k << ' ' << fabric.name << " gap " << gap << " strain " << strain
                              << ": " << report.reason;
@@ -135,7 +139,8 @@ TEST(worn_policy, gathered_cloth_is_as_wide_as_it_lies) {
   const FitReport report = on_its_own_body(skirt, standard_fit_policy());
   int gathered = 0;
   for (const FitRow& row : report.rows) {
-    if (row.kind != "level") continue;
+    if (row.kind != "level")
+      continue;
     gathered += row.gathered;
     EXPECT_LT(row.ease_m, 0.6) << row.name;
     EXPECT_NEAR(row.ease_m, row.lying_m - row.body_m, 1e-9) << row.name;

@@ -34,10 +34,11 @@ struct Drawn {
   std::vector<std::vector<int>> faces;
 
   void add(const Drawn& other) {
-    const int first = static_cast<int>(position.size());
+    const int first = std::ssize(position);
     position.insert(position.end(), other.position.begin(), other.position.end());
     for (std::vector<int> face : other.faces) {
-      for (int& v : face) v += first;
+      for (int& v : face)
+        v += first;
       faces.push_back(face);
     }
   }
@@ -48,7 +49,8 @@ struct Drawn {
       out << "v " << p.x() / unit << ' ' << p.y() / unit << ' ' << p.z() / unit << '\n';
     for (const auto& face : faces) {
       out << 'f';
-      for (const int v : face) out << ' ' << v + 1;
+      for (const int v : face)
+        out << ' ' << v + 1;
       out << '\n';
     }
     return out.str();
@@ -80,14 +82,17 @@ Drawn skirt(double out = 0, int n = 72, int rows = 30) {
 Drawn thick_skirt(double thickness) {
   const int n = 72, rows = 30;
   Drawn d = skirt(thickness, n, rows), inner = skirt(0, n, rows);
-  const int first = static_cast<int>(d.position.size());
-  for (auto& face : inner.faces) std::reverse(face.begin(), face.end());
+  const int first = std::ssize(d.position);
+  for (auto& face : inner.faces)
+    std::reverse(face.begin(), face.end());
   d.add(inner);
   for (int c = 0; c < n; ++c)
     for (const int r : {0, rows}) {
       const int a = r * n + c, b = r * n + (c + 1) % n;
-      if (r == 0) d.faces.push_back({b, a, first + a, first + b});
-      else d.faces.push_back({a, b, first + b, first + a});
+      if (r == 0)
+        d.faces.push_back({b, a, first + a, first + b});
+      else
+        d.faces.push_back({a, b, first + b, first + a});
     }
   return d;
 }
@@ -110,7 +115,8 @@ MeshGarment read(const std::string& text, const std::string& name = "garment.obj
 
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double unit = 1) {
   double d = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) d = std::max(d, (a[i] - b[i]).norm() * unit);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    d = std::max(d, (a[i] - b[i]).norm() * unit);
   return d;
 }
 
@@ -156,7 +162,8 @@ TEST(MeshGarment, in_the_coordinates_of_the_scan_is_known_as_such) {
   turned.scan_to_body = scan;
   Drawn d = skirt();
   const Mat4 back = scan.inverse();
-  for (Vec3& p : d.position) p = (back * p.homogeneous()).head<3>();
+  for (Vec3& p : d.position)
+    p = (back * p.homogeneous()).head<3>();
   const test::ScratchFolder folder;
   io::write_file(folder / "g.obj", d.obj());
   const MeshGarment m = read_mesh_garment(folder / "g.obj", turned, her_skin(), "", "cotton-poplin",
@@ -168,7 +175,8 @@ TEST(MeshGarment, in_the_coordinates_of_the_scan_is_known_as_such) {
 
 TEST(MeshGarment, that_lies_nowhere_near_the_body_is_refused) {
   Drawn d = skirt();
-  for (Vec3& p : d.position) p += Vec3(4, 0, 0);
+  for (Vec3& p : d.position)
+    p += Vec3(4, 0, 0);
   try {
     read(d.obj());
     FAIL() << "was read";
@@ -191,7 +199,8 @@ TEST(MeshGarment, texture_that_is_the_flat_pattern_gives_the_rest_shape) {
     along.push_back(along.back() + (d.position[(c + 1) % n] - d.position[c]).norm() / 1.015);
   const double height = (d.position[n] - d.position[0]).norm() / 1.015;
   for (int r = 0; r <= rows; ++r)
-    for (int c = 0; c <= n; ++c) out << "vt " << along[c] / 3 << ' ' << height * r / 3 << '\n';
+    for (int c = 0; c <= n; ++c)
+      out << "vt " << along[c] / 3 << ' ' << height * r / 3 << '\n';
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < n; ++c) {
       const int a = r * n + c + 1, b = r * n + (c + 1) % n + 1, t = r * (n + 1) + c + 1;
@@ -208,7 +217,8 @@ TEST(MeshGarment, texture_that_is_the_flat_pattern_gives_the_rest_shape) {
   // A scale that is no unit cannot be told from a strain that is the same everywhere.
   EXPECT_LT(stretch_of(m.garment).max, 0.01);
   std::vector<Vec2> texture;
-  for (const Vec2& uv : m.file.texture) texture.push_back(3 * uv);
+  for (const Vec2& uv : m.file.texture)
+    texture.push_back(3 * uv);
   const TextureIsometry isometry = texture_isometry(
       {m.surface.position, m.surface.triangles, {}, {}}, texture, m.surface.texture);
   EXPECT_EQ(isometry.u_m, 1);
@@ -220,10 +230,12 @@ TEST(MeshGarment, texture_that_is_no_pattern_is_not_taken_for_one) {
   std::ostringstream out;
   out << text.substr(0, text.find("\nf ") + 1);
   const Drawn d = skirt();
-  for (const Vec3& p : d.position) out << "vt " << p.x() * p.y() << ' ' << p.y() * p.y() << '\n';
+  for (const Vec3& p : d.position)
+    out << "vt " << p.x() * p.y() << ' ' << p.y() * p.y() << '\n';
   for (const auto& face : d.faces) {
     out << 'f';
-    for (const int v : face) out << ' ' << v + 1 << '/' << v + 1;
+    for (const int v : face)
+      out << ' ' << v + 1 << '/' << v + 1;
     out << '\n';
   }
   const MeshGarment m = read(out.str());
@@ -238,10 +250,13 @@ TEST(MeshGarment, a_shell_is_simulated_as_its_inner_side) {
   EXPECT_NEAR(m.roles.thickness_m, 0.004, 1e-3);
   EXPECT_EQ(m.garment.panels.triangles.size(), 2u * 72 * 30);
   double outermost = 0;
-  for (const Vec3& p : m.garment.position) outermost = std::max(outermost, p.x());
+  for (const Vec3& p : m.garment.position)
+    outermost = std::max(outermost, p.x());
   double outer = 0, inner = 0;
-  for (const Vec3& p : d.position) outer = std::max(outer, p.x());
-  for (const Vec3& p : skirt().position) inner = std::max(inner, p.x());
+  for (const Vec3& p : d.position)
+    outer = std::max(outer, p.x());
+  for (const Vec3& p : skirt().position)
+    inner = std::max(inner, p.x());
   EXPECT_NEAR(outermost, inner, 1e-6);
   EXPECT_LT(inner, outer);
   // Wider by a tenth all round, the outer side goes along, and its thickness stays.
@@ -258,7 +273,8 @@ TEST(MeshGarment, a_shell_is_simulated_as_its_inner_side) {
 
 TEST(MeshGarment, faces_that_stand_twice_are_one_layer) {
   Drawn d = skirt(), turned = skirt();
-  for (auto& face : turned.faces) std::reverse(face.begin(), face.end());
+  for (auto& face : turned.faces)
+    std::reverse(face.begin(), face.end());
   d.add(turned);
   const MeshGarment m = read(d.obj());
   EXPECT_EQ(m.surface.duplicates, 2 * 72 * 30);
@@ -274,7 +290,8 @@ TEST(MeshGarment, a_button_rides_on_the_cloth_and_keeps_its_shape) {
   const MeshGarment m = read(d.obj());
   EXPECT_EQ(m.roles.rigid_parts, 1);
   Garment moved = m.garment;
-  for (Vec3& p : moved.position) p += Vec3(0, 0, 0.02 + 0.2 * p.x() * p.x()); // curved, too
+  for (Vec3& p : moved.position)
+    p += Vec3(0, 0, 0.02 + 0.2 * p.x() * p.x()); // curved, too
   const std::vector<Vec3> out = dressed_positions(m, moved);
   for (std::size_t i = first; i < out.size(); ++i)
     for (std::size_t j = first; j < i; ++j)
@@ -301,7 +318,7 @@ TEST(MeshGarment, a_patch_on_the_cloth_goes_along) {
 TEST(MeshGarment, three_faces_on_an_edge_holes_and_slivers_are_taken) {
   Drawn d = skirt();
   d.faces.erase(d.faces.begin() + 1000, d.faces.begin() + 1006); // a hole
-  const int first = static_cast<int>(d.position.size());
+  const int first = std::ssize(d.position);
   for (int c = 0; c < 20; ++c)
     d.position.push_back(d.position[c + 15 * 72] + Vec3(0, -0.01, 0.08)); // a flounce on a row
   for (int c = 0; c + 1 < 20; ++c)

@@ -50,10 +50,9 @@ pattern::PanelMesh two_pieces(double edge, double half = 20) {
   mesh.source = std::make_shared<pattern::Pattern>(source);
   for (const pattern::PanelInfo& panel : mesh.panels)
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
-      const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+      const Vec2& p = mesh.pattern[v];
       const bool front = panel.name == "front";
-      mesh.placed[static_cast<std::size_t>(v)] =
-          Vec3(front ? p.x() : -p.x(), 0.7 + p.y(), front ? 0.25 : -0.25);
+      mesh.placed[v] = Vec3(front ? p.x() : -p.x(), 0.7 + p.y(), front ? 0.25 : -0.25);
     }
   return mesh;
 }
@@ -79,10 +78,9 @@ struct PlacedShirt {
     int n = 0;
     for (const pattern::MeshSeam& seam : garment.panels.seams)
       for (std::size_t k = 0; k < seam.a.size(); ++k) {
-        if (seam.name.find("under_front") == std::string::npos) continue;
-        sum += (garment.panels.placed[static_cast<std::size_t>(seam.a[k])] -
-                garment.panels.placed[static_cast<std::size_t>(seam.b[k])])
-                   .norm();
+        if (seam.name.find("under_front") == std::string::npos)
+          continue;
+        sum += (garment.panels.placed[seam.a[k]] - garment.panels.placed[seam.b[k]]).norm();
         ++n;
       }
     return n ? sum / n : 1e300;
@@ -91,7 +89,8 @@ struct PlacedShirt {
 
 double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, (a[i] - b[i]).norm());
   return largest;
 }
 
@@ -115,10 +114,9 @@ TEST(FinerMesh, cloth_around_a_cylinder_is_rounder_than_its_coarse_triangles) {
     std::vector<Vec3> x(mesh.pattern.size());
     for (const pattern::PanelInfo& panel : mesh.panels)
       for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
-        const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+        const Vec2& p = mesh.pattern[v];
         const double angle = p.x() / radius + (panel.name == "front" ? 0 : M_PI);
-        x[static_cast<std::size_t>(v)] =
-            Vec3(radius * std::sin(angle), p.y(), radius * std::cos(angle));
+        x[v] = Vec3(radius * std::sin(angle), p.y(), radius * std::cos(angle));
       }
     return x;
   };
@@ -135,8 +133,7 @@ TEST(FinerMesh, cloth_around_a_cylinder_is_rounder_than_its_coarse_triangles) {
       sum += std::abs(std::hypot(at(v).x(), at(v).z()) - radius);
     return sum / static_cast<double>(truth.size());
   };
-  const double rounded = off(
-      [&](std::size_t v) { return fine.position[static_cast<std::size_t>(fine.particle_of[v])]; });
+  const double rounded = off([&](std::size_t v) { return fine.position[fine.particle_of[v]]; });
   EXPECT_LT(rounded, 0.6 * off([&](std::size_t v) { return flat[v]; }));
   EXPECT_LT(fine.position.size(), mesh.pattern.size()) << "what is sewn stays sewn";
 }
@@ -248,12 +245,14 @@ TEST(DrapeLevels, small_changes_make_small_changes) {
   EXPECT_EQ(largest_difference(first.garment.position, threads.garment.position), 0);
   const auto of_vertices = [](const Garment& g) {
     std::vector<Vec3> x;
-    for (int particle : g.particle_of) x.push_back(g.position[static_cast<std::size_t>(particle)]);
+    for (int particle : g.particle_of)
+      x.push_back(g.position[particle]);
     return x;
   };
   const auto rms = [](const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += (a[i] - b[i]).squaredNorm();
     return std::sqrt(sum / static_cast<double>(a.size()));
   };
   EXPECT_LT(rms(of_vertices(first.garment), of_vertices(jittered.garment)), 0.001);

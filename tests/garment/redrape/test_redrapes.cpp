@@ -44,7 +44,8 @@ RedrapeSet drapes(int count, int threads) {
 
 TEST(StartJitter, start_0_is_the_start_itself_and_any_other_is_the_same_wherever_it_is_made) {
   std::vector<Vec3> x;
-  for (int k = 0; k < 50; ++k) x.emplace_back(0.01 * k, 1 + 0.02 * k, 0.1);
+  for (int k = 0; k < 50; ++k)
+    x.emplace_back(0.01 * k, 1 + 0.02 * k, 0.1);
   auto zero = x, three = x, again = x, four = x;
   jitter_start(zero, {}, 1, 0);
   EXPECT_EQ(zero, x);
@@ -114,9 +115,11 @@ TEST(Spread, figures_are_those_of_the_drapes) {
   for (double z : {0.0, 0.003, 0.004}) {
     Garment g = hung_square(5);
     g.particle_of.resize(25);
-    for (int k = 0; k < 25; ++k) g.particle_of[k] = k;
+    for (int k = 0; k < 25; ++k)
+      g.particle_of[k] = k;
     g.position = g.panels.placed;
-    for (Vec3& p : g.position) p.z() += z;
+    for (Vec3& p : g.position)
+      p.z() += z;
     g.converged = true;
     set.garments.push_back(g);
   }

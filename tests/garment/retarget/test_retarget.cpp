@@ -57,10 +57,14 @@ Garment sewn_tube(double radius, double length, double y) {
         g.panels.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
         g.panels.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
       }
-    for (int c = 0; c < n; ++c) p.outline.push_back(id(0, c));
-    for (int r = 0; r < rows; ++r) p.outline.push_back(id(r, n));
-    for (int c = n; c > 0; --c) p.outline.push_back(id(rows, c));
-    for (int r = rows; r > 0; --r) p.outline.push_back(id(r, 0));
+    for (int c = 0; c < n; ++c)
+      p.outline.push_back(id(0, c));
+    for (int r = 0; r < rows; ++r)
+      p.outline.push_back(id(r, n));
+    for (int c = n; c > 0; --c)
+      p.outline.push_back(id(rows, c));
+    for (int r = rows; r > 0; --r)
+      p.outline.push_back(id(r, 0));
     p.n_vertices = static_cast<int>(g.panels.pattern.size()) - p.first_vertex;
     p.n_triangles = static_cast<int>(g.panels.triangles.size()) - p.first_triangle;
     g.panels.panels.push_back(p);
@@ -147,16 +151,19 @@ TEST(retarget, cloth_that_is_held_at_its_end_does_not_slide_to_its_own_length) {
   const Garment g = sewn_tube(0.15, 0.4, 0.6);
   const collision::BodyCollider skin(shapes::cylinder(0.148, -0.2, 1.6, 96));
   std::vector<Vec3> placed = g.position;
-  for (Vec3& p : placed) p.y() = 0.8 + 0.9 * (p.y() - 0.8); // as on a shorter limb
+  for (Vec3& p : placed)
+    p.y() = 0.8 + 0.9 * (p.y() - 0.8); // as on a shorter limb
   std::vector<int> end;
   for (std::size_t i = 0; i < placed.size(); ++i)
-    if (g.position[i].y() < 0.63) end.push_back(static_cast<int>(i));
+    if (g.position[i].y() < 0.63)
+      end.push_back(static_cast<int>(i));
   double shift[2] = {0, 0};
   for (const bool held : {false, true}) {
     std::vector<Vec3> x = placed;
     settle_shape(x, g.position, g.particle_triangles(), skin, 0.003,
                  held ? end : std::vector<int>());
-    for (int i : end) shift[held] += (placed[i].y() - x[i].y()) / static_cast<double>(end.size());
+    for (int i : end)
+      shift[held] += (placed[i].y() - x[i].y()) / static_cast<double>(end.size());
   }
   EXPECT_GT(shift[0], 0.01);
   EXPECT_LT(std::abs(shift[1]), 0.003);
@@ -171,7 +178,8 @@ TEST(retarget, cloth_is_graded_as_near_to_the_skin_as_it_was_placed) {
     settle_shape(x, g.position, g.particle_triangles(), skin, 0.003);
     x = as_near_as_placed(std::move(x), g.position, skin, 0.003);
     double mean = 0;
-    for (const Vec3& p : x) mean += std::hypot(p.x(), p.z()) / static_cast<double>(x.size());
+    for (const Vec3& p : x)
+      mean += std::hypot(p.x(), p.z()) / static_cast<double>(x.size());
     EXPECT_NEAR(mean - 0.148, wanted, 5e-4) << placed;
   }
 }
@@ -225,12 +233,14 @@ TEST(
                                  body.levels.at("waist_semantic").girth_m; // the gap made up for
     Garment g = bound(skin_trousers(body, gap), body);
     for (auto& scale : g.rest_scale)
-      for (double& s : scale) s *= 1 - strain;
+      for (double& s : scale)
+        s *= 1 - strain;
     const FitReport report = fit_before_drape(g, g.position, body, policy);
     EXPECT_TRUE(report.fits)
         << "as far as on the first body"; // it was stretched there, as an elastic band is
     std::vector<Vec3> unstretched = g.position;
-    for (Vec3& p : unstretched) p *= 1 - strain;
+    for (Vec3& p : unstretched)
+      p *= 1 - strain;
     const FitReport again = fit_before_drape(g, unstretched, body, policy);
     EXPECT_EQ(again.fits, lacks < 0.03) << again.reason;
     EXPECT_EQ(again.reason.rfind("does not close at the ", 0) == 0, lacks > 0.03) << again.reason;
@@ -299,7 +309,8 @@ TEST(retarget, trousers_on_a_torso_are_impossible) {
     }
   torso.skin.triangles = faces;
   torso.face_part = parts;
-  for (const char* name : {"leg_l", "leg_r", "lower_body", "head"}) torso.frames.erase(name);
+  for (const char* name : {"leg_l", "leg_r", "lower_body", "head"})
+    torso.frames.erase(name);
   for (const char* name : {"ankle_l", "ankle_r", "knee_l", "knee_r", "head_tip"})
     torso.landmarks.erase(name);
   EXPECT_NE(why_impossible(bound(skin_trousers(whole), whole), torso).find("leg_"),
@@ -353,7 +364,8 @@ std::vector<Vec3> flared_at_the_top(const Garment& g) {
 
 TEST(regrade, every_level_takes_its_own_girth_up_to_the_edge) {
   Garment g = sewn_tube(0.15, 0.4, 0.6);
-  for (Vec3& p : g.position) p = Vec3(-p.z(), p.y(), p.x()); // its seams lie at the sides
+  for (Vec3& p : g.position)
+    p = Vec3(-p.z(), p.y(), p.x()); // its seams lie at the sides
   Garment graded = g;
   const std::vector<Vec3> after = flared_at_the_top(g);
   regrade(graded, g.position, after);
@@ -431,7 +443,8 @@ TEST(widen_strained_pieces, cloth_that_nothing_stretches_keeps_its_pattern) {
   Retargeted worn;
   worn.garment = source;
   widen_strained_pieces(worn, source, body::Body());
-  for (const double w : widths_over(worn.garment, source)) EXPECT_NEAR(w, 1, 0.001);
+  for (const double w : widths_over(worn.garment, source))
+    EXPECT_NEAR(w, 1, 0.001);
 }
 
 TEST(regrade, a_straight_seam_between_mirror_images_stays_straight) {
@@ -452,7 +465,8 @@ TEST(regrade, seams_stay_as_long_on_both_sides) {
   const Garment g = sewn_tube(0.15, 0.4, 0.6);
   Garment graded = g;
   std::vector<Vec3> after = g.position;
-  for (Vec3& p : after) p.x() *= 1 + 0.5 * (p.y() - 0.6); // a flare
+  for (Vec3& p : after)
+    p.x() *= 1 + 0.5 * (p.y() - 0.6); // a flare
   const GradeReport report = regrade(graded, g.position, after);
   for (const pattern::MeshSeam& seam : graded.panels.seams)
     EXPECT_NEAR(seam.length_a, seam.length_b, 5e-5);
@@ -462,7 +476,7 @@ TEST(regrade, seams_stay_as_long_on_both_sides) {
 
 TEST(regrade, a_gathered_seam_keeps_its_ratio_where_the_body_is_lopsided) {
   Garment g = sewn_tube(0.15, 0.4, 0.6);
-  for (int v = g.panels.panels[1].first_vertex; v < static_cast<int>(g.panels.pattern.size()); ++v)
+  for (int v = g.panels.panels[1].first_vertex; v < std::ssize(g.panels.pattern); ++v)
     g.panels.pattern[v].y() *= 1.25; // gathered
   Garment graded = g;
   std::vector<Vec3> after = g.position;
@@ -480,7 +494,8 @@ TEST(regrade, a_gathered_seam_keeps_its_ratio_where_the_body_is_lopsided) {
 TEST(regrade, mirror_images_are_found_by_shape_and_place) {
   const Garment g = sewn_tube(0.15, 0.4, 0.6);
   std::vector<Vec3> position;
-  for (const int p : g.particle_of) position.push_back(g.position[p]);
+  for (const int p : g.particle_of)
+    position.push_back(g.position[p]);
   const std::vector<PanelMirror> mirrors = panel_mirrors(g.panels, position);
   ASSERT_EQ(mirrors.size(), 2u);
   EXPECT_EQ(mirrors[0].partner, 1); // the halves of the tube lie at x > 0 and x < 0
@@ -489,7 +504,8 @@ TEST(regrade, mirror_images_are_found_by_shape_and_place) {
   EXPECT_LT((corner - Vec2(M_PI * 0.15, 0)).norm(),
             1e-6); // turned over left to right, and not upside down
   // The other way about, each half is its own mirror image.
-  for (Vec3& p : position) p = Vec3(-p.z(), p.y(), p.x());
+  for (Vec3& p : position)
+    p = Vec3(-p.z(), p.y(), p.x());
   const std::vector<PanelMirror> own = panel_mirrors(g.panels, position);
   EXPECT_EQ(own[0].partner, 0);
   EXPECT_EQ(own[1].partner, 1);
@@ -506,7 +522,8 @@ TEST(regrade, what_was_alike_left_and_right_stays_so_on_a_lopsided_body) {
   EXPECT_EQ(regrade(graded, g.position, after).mirrored_panels, 2);
   const pattern::Pattern p = pattern_of(graded, g);
   const auto edge = [&](int panel, int e) { return pattern::length(p.panels[panel].edge(e).path); };
-  for (const int e : {0, 2}) EXPECT_NEAR(edge(0, e), edge(1, e), 2e-5) << e;
+  for (const int e : {0, 2})
+    EXPECT_NEAR(edge(0, e), edge(1, e), 2e-5) << e;
   EXPECT_NEAR(edge(0, 1), edge(1, 3), 2e-5);
   EXPECT_NEAR(edge(0, 3), edge(1, 1), 2e-5);
   EXPECT_GT(edge(0, 0), 1.05 * M_PI * 0.15);
@@ -547,7 +564,8 @@ TEST(retarget_pattern, outlines_and_seams_come_back_from_the_mesh) {
     EXPECT_NEAR(pattern::side_length(p, seam.b), 0.4, 1e-9);
   }
   std::vector<pattern::Path> loop;
-  for (const pattern::PanelEdge& e : p.panels[0].loops[0]) loop.push_back(e.path);
+  for (const pattern::PanelEdge& e : p.panels[0].loops[0])
+    loop.push_back(e.path);
   EXPECT_NEAR(pattern::signed_area(loop), M_PI * 0.15 * 0.4, 1e-9);
   EXPECT_TRUE(p.findings.empty());
 }
@@ -577,14 +595,18 @@ Garment drawn_panels() {
 TEST(retarget_pattern, edges_keep_their_names_and_panels_where_they_go) {
   const Garment before = drawn_panels();
   Garment after = before, twice = before;
-  for (Vec2& p : after.panels.pattern) p.x() *= 1.1;
-  for (Vec3& p : after.position) p.y() += 0.07;
-  for (Vec2& p : twice.panels.pattern) p.x() *= 1.2;
+  for (Vec2& p : after.panels.pattern)
+    p.x() *= 1.1;
+  for (Vec3& p : after.position)
+    p.y() += 0.07;
+  for (Vec2& p : twice.panels.pattern)
+    p.x() *= 1.2;
   for (const pattern::Pattern& p :
        {pattern_of(after, before), pattern_of(twice, after)}) { // what was regraded before as well
     const pattern::Panel& front = p.panels[0];
     std::vector<std::string> names;
-    for (const pattern::PanelEdge& e : front.loops[0]) names.push_back(e.name);
+    for (const pattern::PanelEdge& e : front.loops[0])
+      names.push_back(e.name);
     EXPECT_EQ(names, (std::vector<std::string>{"hem", "side_1", "side_2", "top", "other"}))
         << "a corner ends no edge";
     EXPECT_EQ(front.edge(p.seams[0].a[0].edge).name, "side_2");
@@ -624,7 +646,8 @@ TEST(retarget_pattern, a_seam_inside_a_panel_is_told_and_left_out) {
 TEST(retarget_pattern, the_table_tells_what_grew) {
   const Garment g = sewn_tube(0.15, 0.4, 0.6);
   Garment wide = g;
-  for (Vec2& p : wide.panels.pattern) p.x() *= 1.1;
+  for (Vec2& p : wide.panels.pattern)
+    p.x() *= 1.1;
   const std::string table = grade_table(pattern_of(g, g), pattern_of(wide, g));
   EXPECT_NE(table.find("width,front,,47.12,51.84,+4.71\r\n"), std::string::npos) << table;
   EXPECT_NE(table.find("height,front,,40.00,40.00,+0.00\r\n"), std::string::npos) << table;

@@ -24,7 +24,8 @@ SceneEffects parsed(const std::string& text) {
 
 const EffectReport& effect(const DrapeReport& report, const std::string& name) {
   for (const EffectReport& e : report.effects)
-    if (e.name == name) return e;
+    if (e.name == name)
+      return e;
   throw std::runtime_error(name);
 }
 

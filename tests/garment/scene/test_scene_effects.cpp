@@ -32,10 +32,14 @@ Garment skirt(bool sewn) {
     std::vector<int> bottom, top, left, right;
     for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v) {
       const auto& id = g.panels.ids[v];
-      if (id.t == 0) bottom.push_back(v);
-      else if (id.t == 1) top.push_back(v);
-      else if (id.s == 0) left.push_back(v);
-      else if (id.s == 1) right.push_back(v);
+      if (id.t == 0)
+        bottom.push_back(v);
+      else if (id.t == 1)
+        top.push_back(v);
+      else if (id.s == 0)
+        left.push_back(v);
+      else if (id.s == 1)
+        right.push_back(v);
     }
     p.outline = bottom;
     p.outline.insert(p.outline.end(), right.begin(), right.end());
@@ -55,7 +59,8 @@ bool active(const std::vector<EffectReport>& effects, const std::string& name) {
 }
 const std::string& why(const std::vector<EffectReport>& effects, const std::string& name) {
   for (const EffectReport& e : effects)
-    if (e.name == name) return e.why;
+    if (e.name == name)
+      return e.why;
   throw std::runtime_error(name);
 }
 
@@ -130,9 +135,11 @@ TEST(SceneEffects, a_run_follows_the_outline_the_shorter_way_or_the_mesh) {
   const Garment g = skirt(false);
   const auto top = run_vertices(g, {"front", Vec2(0, 1), Vec2(1, 1)});
   ASSERT_EQ(top.size(), 9u);
-  for (int v : top) EXPECT_EQ(g.panels.ids[v].t, 1);
+  for (int v : top)
+    EXPECT_EQ(g.panels.ids[v].t, 1);
   const auto middle = run_vertices(g, {"back", Vec2(0.5, 0.25), Vec2(0.5, 0.75)});
-  for (int v : middle) EXPECT_EQ(g.panels.ids[v].panel, 1);
+  for (int v : middle)
+    EXPECT_EQ(g.panels.ids[v].panel, 1);
   EXPECT_EQ(middle.size(), 5u);
   EXPECT_EQ(run_vertices(g, {"front", Vec2(0.5, 1), Vec2(0.5, 1)}).size(), 1u);
   EXPECT_THROW(run_vertices(g, {"frnt", Vec2(0, 0), Vec2(0, 0)}), Error);
@@ -154,7 +161,8 @@ TEST(SceneEffects, auto_finds_the_reason_for_each) {
     EXPECT_TRUE(active(effects, on)) << on;
   for (const char* off : {"edge_springs", "bending", "membrane"})
     EXPECT_FALSE(active(effects, off)) << off;
-  for (const EffectReport& e : effects) EXPECT_FALSE(e.why.empty()) << e.name;
+  for (const EffectReport& e : effects)
+    EXPECT_FALSE(e.why.empty()) << e.name;
 }
 
 TEST(SceneEffects, a_list_may_change_what_auto_finds) {
@@ -185,7 +193,8 @@ TEST(SceneEffects, are_built_when_active_and_only_then) {
     cloth::ClothSolver solver(mesh, g.position);
     add_scene(solver, mesh, g, &body, choose_effects(g, &body, settings), sewing);
     std::string out;
-    for (const auto& e : solver.effects()) out += std::string(e->name()) + " ";
+    for (const auto& e : solver.effects())
+      out += std::string(e->name()) + " ";
     return out;
   };
   EXPECT_EQ(names("auto", false),
@@ -214,7 +223,8 @@ TEST(SceneEffects, a_band_of_two_panels_is_one_ring_over_welded_seams) {
     ++links_at[l.j];
     length += l.rest_length;
   }
-  for (const auto& [particle, n] : links_at) EXPECT_EQ(n, 2) << particle;
+  for (const auto& [particle, n] : links_at)
+    EXPECT_EQ(n, 2) << particle;
   EXPECT_NEAR(length, 0.8 * 0.8, 1e-9);
 }
 
@@ -230,13 +240,15 @@ TEST(SceneEffects, an_elastic_waistband_draws_the_skirt_in_to_the_balance_of_ban
   const auto& band = dynamic_cast<const cloth::ElasticBandEffect&>(*solver.effects().back());
   auto girth = [&] {
     double sum = 0;
-    for (const cloth::BandLink& l : band.links()) sum += (solver.x()[l.j] - solver.x()[l.i]).norm();
+    for (const cloth::BandLink& l : band.links())
+      sum += (solver.x()[l.j] - solver.x()[l.i]).norm();
     return sum;
   };
   cloth::StepOptions options;
   options.h = 0.1;
   options.cg_tolerance = 1e-4;
-  for (int k = 0; k < 150; ++k) solver.step(options);
+  for (int k = 0; k < 150; ++k)
+    solver.step(options);
   EXPECT_LT(girth(), 0.75 * 0.8)
       << "cloth without bending gathers under the band"; // rest girth of the cloth 0.8, of the band
                                                          // 0.4
@@ -267,7 +279,8 @@ TEST(SceneEffects, a_drape_runs_what_the_scene_asks_for_and_reports_it) {
   EXPECT_GT(after.z(), before.z() + 0.02) << "the wind blows the hem along +z";
   auto calls = [](const DrapeReport& report, const std::string& name) {
     for (const EffectReport& e : report.effects)
-      if (e.name == name) return e.calls;
+      if (e.name == name)
+        return e.calls;
     return -1L;
   };
   for (const char* name : {"membrane", "wind", "elastic_bands"}) {
@@ -345,5 +358,6 @@ TEST(Materials, every_panel_may_have_its_own_and_every_preset_names_its_source) 
             material_preset("denim").density_kg_m2);
   EXPECT_EQ(mesh.fabrics[mesh.triangles.back().fabric].density_kg_m2,
             material_preset("silk").density_kg_m2);
-  for (const Material& m : material_presets()) EXPECT_FALSE(m.source.empty()) << m.name;
+  for (const Material& m : material_presets())
+    EXPECT_FALSE(m.source.empty()) << m.name;
 }

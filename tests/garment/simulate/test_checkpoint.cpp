@@ -60,7 +60,8 @@ Case tucked() { // sheared against each other, panels are drawn through each oth
                 // sewn; sheared half as far they come apart again
   Case c{"tucked", make_pillar(), make_skirt(0.75, 0.25, 0.04)};
   for (Vec3& p : c.garment.panels.placed)
-    if (p.z() > 0) p += Vec3(1.3 * (p.y() - 0.9), 1.5 * p.x(), 0);
+    if (p.z() > 0)
+      p += Vec3(1.3 * (p.y() - 0.9), 1.5 * p.x(), 0);
   return c;
 }
 
@@ -73,11 +74,16 @@ Case swaying() { // a flared skirt: it goes with its inertia for a while
 }
 
 Case case_of(const std::string& name) {
-  if (name == "drawn_in") return drawn_in();
-  if (name == "sleeve") return sleeve();
-  if (name == "tucked") return tucked();
-  if (name == "dense") return dense();
-  if (name == "swaying") return swaying();
+  if (name == "drawn_in")
+    return drawn_in();
+  if (name == "sleeve")
+    return sleeve();
+  if (name == "tucked")
+    return tucked();
+  if (name == "dense")
+    return dense();
+  if (name == "swaying")
+    return swaying();
   return {"sewn", make_pillar(), make_skirt(0.75, 0.25, 0.04)};
 }
 
@@ -109,7 +115,8 @@ TEST_P(KilledRun, goes_on_from_any_step_to_the_bytes_of_one_that_was_not_killed)
   const Case c = case_of(GetParam());
   const std::string name = GetParam();
   const bool tucked = name == "tucked";
-  if (tucked) settings.max_steps = 300; // its knot is slow to come to rest
+  if (tucked)
+    settings.max_steps = 300; // its knot is slow to come to rest
   Garment whole = c.garment;
   const DrapeReport undisturbed =
       drape(whole, &c.body, settings, silent_reporter(), {.checkpoints = {file("whole.json"), 17}});
@@ -249,7 +256,8 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
   Killer nobody(1 << 30);
   int first = 0; // how often it was asked before the first frame
   const auto keep_and_count = [&](const MotionFrame& f, const Garment& g) {
-    if (frames.empty()) first = nobody.asked();
+    if (frames.empty())
+      first = nobody.asked();
     frames.push_back({f, g.position});
   };
   const MotionInput walk{"a walk", 30};
@@ -277,7 +285,8 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     EXPECT_EQ(report.steps, undisturbed.steps);
     EXPECT_EQ(report.solver, undisturbed.solver);
     io::Json quality = report.quality, expected = undisturbed.quality;
-    for (io::Json* q : {&quality, &expected}) (*q)["motion"].erase("ms_per_frame");
+    for (io::Json* q : {&quality, &expected})
+      (*q)["motion"].erase("ms_per_frame");
     EXPECT_EQ(quality, expected);
     ASSERT_EQ(c.state.move.frame + after.size(), frames.size());
     for (std::size_t k = 0; k < after.size(); ++k) {
@@ -309,7 +318,8 @@ TEST_F(CheckpointTest,
   int first = 0; // how often it was asked before the first frame
   std::vector<std::vector<Vec3>> frames;
   const auto count = [&](const MotionFrame& f, const Garment& g) {
-    if (frames.empty()) first = nobody.asked();
+    if (frames.empty())
+      first = nobody.asked();
     EXPECT_EQ(f.self_intersections, 0U) << f.number;
     frames.push_back(g.position);
   };

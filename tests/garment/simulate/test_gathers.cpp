@@ -44,13 +44,12 @@ std::pair<double, double> rest_share(const Garment& garment, double from, double
       const Vec2 &p = garment.panels.pattern[t[k]], &q = garment.panels.pattern[t[(k + 1) % 3]];
       const double down = 0.2 - 0.5 * (p.y() + q.y()), slope = std::abs(q.y() - p.y()),
                    across = std::abs(q.x() - p.x());
-      if (down < from || down > to || (level ? across < 5 * slope : slope < 5 * across)) continue;
+      if (down < from || down > to || (level ? across < 5 * slope : slope < 5 * across))
+        continue;
       const int i = garment.particle_of[t[k]], j = garment.particle_of[t[(k + 1) % 3]];
       const std::array<int, 2> edge{std::min(i, j), std::max(i, j)};
       const auto at = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
-      const double share =
-          mesh.springs[static_cast<std::size_t>(at - mesh.edges.begin())].rest_length /
-          (q - p).norm();
+      const double share = mesh.springs[at - mesh.edges.begin()].rest_length / (q - p).norm();
       range = {std::min(range.first, share), std::max(range.second, share)};
     }
   return range;

@@ -52,7 +52,8 @@ Garment caught_curtains() {
   unsew(g);
   std::vector<Vec3> position = g.panels.placed;
   for (Vec3& p : position)
-    if (const double r = (p - Vec3(0, 0.7, 0)).norm(); r < 0.03) p.x() += 0.06 * (1 - r / 0.03);
+    if (const double r = (p - Vec3(0, 0.7, 0)).norm(); r < 0.03)
+      p.x() += 0.06 * (1 - r / 0.03);
   weld(g, position);
   return g;
 }

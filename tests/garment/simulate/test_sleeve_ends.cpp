@@ -44,7 +44,8 @@ TEST(SleeveEnds, only_what_ends_near_the_wrist_is_held_and_of_that_the_last_3_cm
                                    [&](const Vec3& p) { return p.y() < lowest(garment) + 0.03; });
     EXPECT_GT(low, 5);
     EXPECT_EQ(held.size(), static_cast<std::size_t>(low));
-    for (const cloth::Pin& pin : held) EXPECT_EQ(pin.target, garment.position[pin.particle]);
+    for (const cloth::Pin& pin : held)
+      EXPECT_EQ(pin.target, garment.position[pin.particle]);
   }
   garment.bind = bind_as_sleeve(garment, lowest(garment) + 0.09);
   EXPECT_TRUE(hold_sleeve_ends(garment).empty()) << "it covers the hand";
@@ -63,7 +64,8 @@ TEST(SleeveEnds, that_slid_onto_a_hand_and_are_held_open_by_it_are_told) {
   const auto moved = [&](double down, double wider) {
     Garment there = garment;
     for (Vec3& p : there.position)
-      if (p.y() < end) p = Vec3(wider * p.x(), p.y() - down, wider * p.z());
+      if (p.y() < end)
+        p = Vec3(wider * p.x(), p.y() - down, wider * p.z());
     return ends_pushed_on_hands(there, placed, placed);
   };
   EXPECT_EQ(moved(0.02, 1.05).size(), n_held);
@@ -77,7 +79,8 @@ TEST(SleeveEnds, are_held_on_a_shorter_arm_until_there_are_folds_above) {
   Garment garment = hung(pillar);
   garment.bind = bind_as_sleeve(garment, lowest(garment));
   const double top = lowest(garment) + 0.25;
-  for (Vec3& p : garment.position) p.y() = top + 0.85 * (p.y() - top);
+  for (Vec3& p : garment.position)
+    p.y() = top + 0.85 * (p.y() - top);
   const DrapeReport report =
       drape(garment, &pillar, {}, silent_reporter(), {.start = {.hold_sleeve_ends = true}});
   EXPECT_TRUE(report.converged) << stop_text(report);

@@ -27,7 +27,9 @@ std::string message(const Pattern& pattern, const std::string& edits) {
   }
   return "";
 }
-std::string bytes(const Pattern& pattern) { return io::to_text(pattern_json(pattern, "test")); }
+std::string bytes(const Pattern& pattern) {
+  return io::to_text(pattern_json(pattern, "test"));
+}
 
 /// A tube with curved sides, a hole in the front, notches, and seams along parts of edges.
 Pattern curvy() {
@@ -44,7 +46,8 @@ Pattern curvy() {
 
 double total_area(const Pattern& p) {
   double sum = 0;
-  for (const Panel& panel : p.panels) sum += outline_area(panel);
+  for (const Panel& panel : p.panels)
+    sum += outline_area(panel);
   return sum;
 }
 
@@ -52,7 +55,7 @@ void expect_sound(Pattern pattern) {
   for (const Seam& s : pattern.seams)
     for (const auto* side : {&s.a, &s.b})
       for (const Run& r : *side)
-        ASSERT_LT(r.edge, pattern.panels[static_cast<std::size_t>(r.panel)].n_edges());
+        ASSERT_LT(r.edge, pattern.panels[r.panel].n_edges());
   finish_pattern(pattern, "t");
   const Sewn sewn = sew(mesh_pattern(pattern, 0.02, "t"));
   EXPECT_EQ(sewn.wrong_direction + sewn.non_manifold, 0);
@@ -243,7 +246,8 @@ TEST(Edits, ShrinkAlongAnEdgeAndAcrossAStrip) {
 
 TEST(Edits, GradeAddsLengths) {
   const Pattern p = edited(own(tube_text()), R"({"edit": "grade", "width": 2, "height": -1.5})");
-  for (const Panel& panel : p.panels) EXPECT_NEAR(outline_area(panel), 0.42 * 0.585, 1e-8);
+  for (const Panel& panel : p.panels)
+    EXPECT_NEAR(outline_area(panel), 0.42 * 0.585, 1e-8);
 }
 
 /// One random edit that suits the pattern; some fail (a cut through a hole) and are left out.

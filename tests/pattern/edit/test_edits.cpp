@@ -25,7 +25,8 @@ std::vector<Vec2> points(const Pattern& pattern) {
   for (const Panel& p : pattern.panels)
     for (const auto& loop : p.loops)
       for (const PanelEdge& e : loop)
-        for (const Segment& s : e.path) out.insert(out.end(), s.p.begin(), s.p.end());
+        for (const Segment& s : e.path)
+          out.insert(out.end(), s.p.begin(), s.p.end());
   return out;
 }
 
@@ -85,7 +86,8 @@ TEST(Edits, AMeshFollowsWithItsIdsAndTriangles) {
   EXPECT_EQ(pattern_json(*mesh.source, "test"), pattern_json(after, "test"))
       << "the mesh names the pattern that it is of now";
   EXPECT_EQ(mesh.triangles, old.triangles);
-  for (std::size_t v = 0; v < mesh.ids.size(); ++v) EXPECT_EQ(mesh.ids[v].t, old.ids[v].t);
+  for (std::size_t v = 0; v < mesh.ids.size(); ++v)
+    EXPECT_EQ(mesh.ids[v].t, old.ids[v].t);
   for (std::size_t p = 0; p < 2; ++p)
     EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]), outline_area(after.panels[p]),
                 1e-3 * outline_area(after.panels[p]));

@@ -60,7 +60,7 @@ TEST(ShoulderFolds, AFrontAndBackInOneAreCutAcrossTheirHoleAndSleeves) {
     ASSERT_GE(front, 0);
     ASSERT_GE(back, 0);
     for (int p : {front, back}) {
-      const Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
+      const Panel& panel = pattern.panels[p];
       EXPECT_EQ(panel.loops.size(), 1u) << "half of the hole is part of the outline";
       double low = 1e300, high = -1e300;
       for (const PanelEdge& e : panel.loops[0]) {
@@ -71,7 +71,7 @@ TEST(ShoulderFolds, AFrontAndBackInOneAreCutAcrossTheirHoleAndSleeves) {
       EXPECT_GT(std::abs(panel.grain.y()), 0.999) << "it stands";
     }
     const auto depth = [&](int p, const std::string& edge) {
-      const Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
+      const Panel& panel = pattern.panels[p];
       const int e = panel.find_edge(edge);
       return e < 0 ? 0.0 : length(panel.edge(e).path);
     };
@@ -97,7 +97,7 @@ TEST(ShoulderFolds, ItIsPlacedAsAFrontAndABackAre) {
   EXPECT_GT(middle(mesh, pattern.find_panel("front_body")).z(), 0.05);
   EXPECT_LT(middle(mesh, pattern.find_panel("back_body")).z(), -0.05);
   EXPECT_NEAR(top_of(mesh), 1.44, 0.06) << "the fold is over the shoulders";
-  EXPECT_EQ(mesh.panels[static_cast<std::size_t>(pattern.find_panel("sleeve_l"))].part, "arm_l");
+  EXPECT_EQ(mesh.panels[pattern.find_panel("sleeve_l")].part, "arm_l");
 }
 
 TEST(ShoulderFolds, AFoldThatTheFileNamesNeedsNoSeams) {

@@ -14,9 +14,11 @@ public:
           std::mt19937_64& random)
       : m_samples(samples), m_clues(clues), m_how(how) {
     const auto share = [&] { return static_cast<double>(random() >> 11) / 9007199254740992.0; };
-    for (std::size_t c = 0; c < clues; ++c) m_used.push_back(share() < 0.6);
+    for (std::size_t c = 0; c < clues; ++c)
+      m_used.push_back(share() < 0.6);
     for (std::size_t k = 0; k < samples.size(); ++k)
-      if (share() < 0.7) m_rows.push_back(k);
+      if (share() < 0.7)
+        m_rows.push_back(k);
   }
 
   std::vector<SeamTrees::Node> grow(const std::vector<float>& slope,
@@ -30,12 +32,14 @@ public:
       std::vector<double> g(count * m_clues * CLASSES, 0), h(g.size(), 0), sum(count, 0),
           weight(count, 0);
       for (std::size_t k : m_rows) {
-        if (m_node[k] < first || m_node[k] == DONE) continue;
+        if (m_node[k] < first || m_node[k] == DONE)
+          continue;
         const std::size_t x = m_node[k] - first;
         sum[x] += slope[k];
         weight[x] += curve[k];
         for (std::size_t c = 0; c < m_clues && depth < m_how.depth; ++c) {
-          if (!m_used[c]) continue;
+          if (!m_used[c])
+            continue;
           const std::size_t at = (x * m_clues + c) * CLASSES + m_samples[k]->evidence[c];
           g[at] += slope[k];
           h[at] += curve[k];
@@ -43,13 +47,15 @@ public:
       }
       for (std::size_t x = 0; x < count; ++x) {
         SeamTrees::Node& node = m_heap[first + x];
-        if (!active[first + x]) continue;
+        if (!active[first + x])
+          continue;
         node.value = static_cast<float>(m_how.rate * sum[x] / (weight[x] + m_how.ridge));
         if (depth < m_how.depth &&
             split(node, &g[x * m_clues * CLASSES], &h[x * m_clues * CLASSES], sum[x], weight[x]))
           active[2 * (first + x) + 1] = active[2 * (first + x) + 2] = 1;
       }
-      if (depth == m_how.depth) break;
+      if (depth == m_how.depth)
+        break;
       for (std::size_t k : m_rows)
         if (m_node[k] != DONE)
           m_node[k] = m_heap[m_node[k]].clue < 0 ? DONE : branch(m_node[k], *m_samples[k]);
@@ -64,7 +70,7 @@ private:
 
   std::size_t branch(std::size_t k, const Sample& sample) const {
     const auto& node = m_heap[k];
-    return 2 * k + 1 + (sample.evidence[static_cast<std::size_t>(node.clue)] > node.at);
+    return 2 * k + 1 + (sample.evidence[node.clue] > node.at);
   }
 
   bool split(SeamTrees::Node& node, const double* g, const double* h, double sum,
@@ -77,7 +83,8 @@ private:
         below += g[c * CLASSES + q];
         own += h[c * CLASSES + q];
         const double rest = weight - own;
-        if (own < m_how.least_weight || rest < m_how.least_weight) continue;
+        if (own < m_how.least_weight || rest < m_how.least_weight)
+          continue;
         const double gain = below * below / (own + m_how.ridge) +
                             (sum - below) * (sum - below) / (rest + m_how.ridge) - base;
         if (gain > best) {
@@ -132,7 +139,8 @@ SeamTrees boost(const std::vector<const Sample*>& samples, std::size_t clues, co
     }
     SeamTrees one;
     one.trees.push_back(Growing(samples, clues, how, random).grow(slope, curve));
-    for (std::size_t k = 0; k < samples.size(); ++k) odds[k] += one(samples[k]->evidence);
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      odds[k] += one(samples[k]->evidence);
     out.trees.push_back(std::move(one.trees[0]));
   }
   return out;
@@ -140,7 +148,8 @@ SeamTrees boost(const std::vector<const Sample*>& samples, std::size_t clues, co
 
 static void node_text(const std::vector<SeamTrees::Node>& tree, std::size_t k, std::string& text) {
   const SeamTrees::Node& node = tree[k];
-  if (!text.empty()) text += ',';
+  if (!text.empty())
+    text += ',';
   if (node.clue < 0) {
     text += "-1," + std::to_string(std::lround(node.value * 1000));
     return;

@@ -29,7 +29,9 @@ struct Truth {
   int face = 0, hand = 0; ///< 1 back, -1 front; 1 left, -1 right; 0 not told
 };
 
-bool has(const std::string& name, const char* word) { return name.find(word) != std::string::npos; }
+bool has(const std::string& name, const char* word) {
+  return name.find(word) != std::string::npos;
+}
 bool ends(const std::string& name, const std::string& tail) {
   return name.size() >= tail.size() &&
          name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
@@ -38,15 +40,24 @@ bool ends(const std::string& name, const std::string& tail) {
 Truth truth_of(const std::string& n) {
   Truth t{3};
   t.hand = t.face = 0;
-  if (has(n, "left") || has(n, "_l_") || ends(n, "_l")) t.hand = 1;
-  else if (has(n, "right") || has(n, "_r_") || ends(n, "_r")) t.hand = -1;
-  if (has(n, "front") || has(n, "ftorso") || ends(n, "_f") || has(n, "_f_")) t.face = -1;
-  else if (has(n, "back") || has(n, "btorso") || ends(n, "_b") || has(n, "_b_")) t.face = 1;
-  if (has(n, "collar") || has(n, "hood")) t.part = 2;
-  else if (has(n, "sleeve") || n.rfind("sl_", 0) == 0) t.part = 1;
-  else if (has(n, "torso")) t.part = 0;
-  else if (n.rfind("pant", 0) == 0) t.part = 4;
-  else t.hand = 0;
+  if (has(n, "left") || has(n, "_l_") || ends(n, "_l"))
+    t.hand = 1;
+  else if (has(n, "right") || has(n, "_r_") || ends(n, "_r"))
+    t.hand = -1;
+  if (has(n, "front") || has(n, "ftorso") || ends(n, "_f") || has(n, "_f_"))
+    t.face = -1;
+  else if (has(n, "back") || has(n, "btorso") || ends(n, "_b") || has(n, "_b_"))
+    t.face = 1;
+  if (has(n, "collar") || has(n, "hood"))
+    t.part = 2;
+  else if (has(n, "sleeve") || n.rfind("sl_", 0) == 0)
+    t.part = 1;
+  else if (has(n, "torso"))
+    t.part = 0;
+  else if (n.rfind("pant", 0) == 0)
+    t.part = 4;
+  else
+    t.hand = 0;
   return t;
 }
 
@@ -62,7 +73,8 @@ struct Garment {
 
 SeamTrees learn(const std::vector<Sample>& samples, const Boosting& how) {
   std::vector<const Sample*> list;
-  for (const Sample& s : samples) list.push_back(&s);
+  for (const Sample& s : samples)
+    list.push_back(&s);
   return boost(list, CLUES, how);
 }
 
@@ -79,7 +91,8 @@ int main(int argc, char** argv) {
     g->path = argv[k];
     g->kept = g->path.find("keep") != std::string::npos;
     g->pattern = read_pattern(argv[k], PatternChoice{});
-    if (g->pattern.seams.empty()) continue;
+    if (g->pattern.seams.empty())
+      continue;
     for (Panel& panel : g->pattern.panels) {
       g->names.push_back(panel.name);
       g->truth.push_back(truth_of(panel.name));
@@ -115,8 +128,10 @@ int main(int argc, char** argv) {
         const Evidence e =
             look ? all[g]->witness->panel(k, all[g]->parts) : all[g]->witness->panel(k);
         double sum = 0;
-        for (std::size_t c = 0; c < SHAPE_PARTS; ++c) sum += now[k][c] = std::exp(own[c](e));
-        for (double& x : now[k]) x /= sum;
+        for (std::size_t c = 0; c < SHAPE_PARTS; ++c)
+          sum += now[k][c] = std::exp(own[c](e));
+        for (double& x : now[k])
+          x /= sum;
       }
       all[g]->parts = std::move(now);
     }
@@ -124,9 +139,11 @@ int main(int argc, char** argv) {
   }
   std::vector<Sample> backs, faces;
   for (const auto& g : all) {
-    if (g->kept) continue;
+    if (g->kept)
+      continue;
     std::vector<std::size_t> parts;
-    for (const Truth& t : g->truth) parts.push_back(t.part);
+    for (const Truth& t : g->truth)
+      parts.push_back(t.part);
     for (std::size_t k = 0; k < g->names.size(); ++k)
       if (g->truth[k].face != 0)
         backs.push_back({{}, g->witness->panel(k, g->parts), g->truth[k].face > 0, 1});
@@ -139,7 +156,8 @@ int main(int argc, char** argv) {
   model.same_face = learn(faces, how);
   std::size_t panels = 0, parts = 0, right = 0, whole = 0, garments = 0;
   for (const auto& g : all) {
-    if (!g->kept) continue;
+    if (!g->kept)
+      continue;
     const std::vector<ShapeRole> roles = shape_roles(g->pattern, model);
     std::string wrong;
     for (std::size_t k = 0; k < roles.size(); ++k) {
@@ -153,13 +171,16 @@ int main(int argc, char** argv) {
       if (!part || !(side || t.part == 2)) {
         wrong += " " + g->names[k] + "=" + SHAPE_PART_NAMES[roles[k].part] +
                  (roles[k].back ? " back" : " front");
-        if (roles[k].hand > 0) wrong += " left";
-        if (roles[k].hand < 0) wrong += " right";
+        if (roles[k].hand > 0)
+          wrong += " left";
+        if (roles[k].hand < 0)
+          wrong += " right";
       }
     }
     ++garments;
     whole += wrong.empty();
-    if (!wrong.empty()) std::printf("%s:%s\n", g->path.c_str(), wrong.c_str());
+    if (!wrong.empty())
+      std::printf("%s:%s\n", g->path.c_str(), wrong.c_str());
   }
   std::printf("%zu panels: part right %.3f, side too %.3f; %zu of %zu garments wholly\n", panels,
               static_cast<double>(parts) / static_cast<double>(panels),

@@ -51,14 +51,15 @@ std::vector<Seam> through_dxf(Pattern& pattern) {
     panel.name = "P" + std::to_string(1000 + p);
     panel.label.clear();
     panel.hint = {};
-    for (int e = 0; e < panel.n_edges(); ++e) panel.edge(e).name = std::to_string(e);
+    for (int e = 0; e < panel.n_edges(); ++e)
+      panel.edge(e).name = std::to_string(e);
   }
   std::vector<std::string> left_out;
   Pattern read = read_dxf(pattern_dxf(pattern, left_out), "p.dxf");
   for (Seam& seam : seams)
     for (auto* side : {&seam.a, &seam.b})
       for (Run& run : *side) {
-        const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
+        const Panel& panel = pattern.panels[run.panel];
         const std::string edge = panel.edge(run.edge).name;
         run.panel = read.find_panel(panel.name);
         run.edge = read.panels.at(static_cast<std::size_t>(run.panel)).find_edge(edge);
@@ -81,7 +82,8 @@ std::unique_ptr<Garment> prepare(const std::string& path, Pattern pattern) {
     at[{g->sides[k].panel, g->sides[k].first}] = static_cast<int>(k);
   }
   for (const Seam& s : seams) {
-    if (s.a.size() != 1 || s.b.size() != 1) continue;
+    if (s.a.size() != 1 || s.b.size() != 1)
+      continue;
     const auto a = at.find({s.a[0].panel, s.a[0].edge}), b = at.find({s.b[0].panel, s.b[0].edge});
     if (a != at.end() && b != at.end() && a->second != b->second)
       g->truth.insert({std::min(a->second, b->second), std::max(a->second, b->second)});
@@ -95,7 +97,8 @@ std::vector<const Sample*> gather(const std::vector<Garment*>& garments, std::si
   std::vector<const Sample*> out;
   for (std::size_t k = 0; k < garments.size(); ++k)
     if (k % FOLDS != but)
-      for (const Sample& s : garments[k]->samples) out.push_back(&s);
+      for (const Sample& s : garments[k]->samples)
+        out.push_back(&s);
   return out;
 }
 
@@ -103,21 +106,24 @@ std::vector<const Sample*> gather(const std::vector<Garment*>& garments, std::si
 std::vector<SeamTrees> folds(const std::vector<Garment*>& train, std::size_t clues,
                              const Boosting& how) {
   std::vector<SeamTrees> out;
-  for (std::size_t f = 0; f <= FOLDS; ++f) out.push_back(boost(gather(train, f), clues, how));
+  for (std::size_t f = 0; f <= FOLDS; ++f)
+    out.push_back(boost(gather(train, f), clues, how));
   return out;
 }
 
 class Fit {
 public:
   explicit Fit(std::vector<std::unique_ptr<Garment>>& all) {
-    for (auto& g : all) (g->kept ? m_kept : m_train).push_back(g.get());
+    for (auto& g : all)
+      (g->kept ? m_kept : m_train).push_back(g.get());
   }
 
   SeamModel run(bool verbose) {
     SeamModel model;
     const std::size_t plain = static_cast<std::size_t>(Clue::SETTLED);
     for (int look = 0; look < 3; ++look) {
-      for (Garment* g : m_train) sample_look(*g, look > 0);
+      for (Garment* g : m_train)
+        sample_look(*g, look > 0);
       const auto trees = folds(m_train, look ? plain : FIRST_LOOK, m_how);
       each([&](Garment& g, std::size_t fold) {
         g.odds = g.assembly->look(trees[fold], look ? &g.odds : nullptr);
@@ -126,14 +132,16 @@ public:
       std::printf("look %d\n", look);
       std::fflush(stdout);
     }
-    for (Garment* g : m_train) sample_states(*g);
+    for (Garment* g : m_train)
+      sample_states(*g);
     const auto settle = folds(m_train, plain, m_how);
     model.settle = settle.back();
     std::map<Garment*, SeamAssembly::Settled> settled;
     each([&](Garment& g, std::size_t fold) {
       settled[&g] = g.assembly->settle(settle[fold], g.odds, {}, {});
       std::set<SidePair> guess;
-      for (const auto& [pair, odds] : settled[&g].at) guess.insert(pair);
+      for (const auto& [pair, odds] : settled[&g].at)
+        guess.insert(pair);
       const std::set<SidePair> right = right_ones(g.pattern, g.sides, guess, g.truth);
       g.samples.clear();
       for (const SidePair& pair : guess)
@@ -147,8 +155,10 @@ public:
 
 private:
   template<class F> void each(F f) {
-    for (std::size_t k = 0; k < m_train.size(); ++k) f(*m_train[k], k % FOLDS);
-    for (Garment* g : m_kept) f(*g, FOLDS);
+    for (std::size_t k = 0; k < m_train.size(); ++k)
+      f(*m_train[k], k % FOLDS);
+    for (Garment* g : m_kept)
+      f(*g, FOLDS);
   }
   double share() { return static_cast<double>(m_random() >> 11) / 9007199254740992.0; }
 
@@ -160,9 +170,12 @@ private:
       const std::size_t i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
       const double part_again = g.odds.of_pair[i * n + j] < -5 ? 0.025 : 0.4;
       const double part = again ? part_again : 0.08;
-      if (!s.sewn && share() > part) continue;
-      if (!s.sewn) s.weight = static_cast<float>(1 / part);
-      if (again) g.witness->second_look(i, j, g.odds, s.evidence);
+      if (!s.sewn && share() > part)
+        continue;
+      if (!s.sewn)
+        s.weight = static_cast<float>(1 / part);
+      if (again)
+        g.witness->second_look(i, j, g.odds, s.evidence);
       g.samples.push_back(s);
     }
   }
@@ -187,11 +200,14 @@ private:
       for (const auto& pair : g.assembly->pairs()) {
         const std::size_t i = static_cast<std::size_t>(pair.i),
                           j = static_cast<std::size_t>(pair.j);
-        if (odds[i * n + j] <= SeamWitness::IMPOSSIBLE || done.count({pair.i, pair.j})) continue;
+        if (odds[i * n + j] <= SeamWitness::IMPOSSIBLE || done.count({pair.i, pair.j}))
+          continue;
         Sample s{{pair.i, pair.j}, pair.evidence, g.truth.count({pair.i, pair.j}) > 0, 1};
         const double part_kept = odds[i * n + j] < -5 ? 0.02 : 0.35;
-        if (!s.sewn && share() > part_kept) continue;
-        if (!s.sewn) s.weight = static_cast<float>(1 / part_kept);
+        if (!s.sewn && share() > part_kept)
+          continue;
+        if (!s.sewn)
+          s.weight = static_cast<float>(1 / part_kept);
         g.witness->second_look(i, j, sums, s.evidence);
         g.samples.push_back(s);
       }
@@ -205,7 +221,8 @@ private:
       PairOdds found = g->assembly->run(model).pairs;
       std::erase_if(found, [](const auto& item) { return item.second < 0; });
       std::set<SidePair> guess;
-      for (const auto& [pair, odds] : found) guess.insert(pair);
+      for (const auto& [pair, odds] : found)
+        guess.insert(pair);
       const std::set<SidePair> right = right_ones(g->pattern, g->sides, guess, g->truth);
       hits += right.size();
       guessed += guess.size();
@@ -216,14 +233,17 @@ private:
         ++grade[0];
         grade[1] += static_cast<int>(right.count(pair));
       }
-      if (!verbose) continue;
+      if (!verbose)
+        continue;
       std::printf("%s: %zu seams, %zu guessed, %zu right\n", g->path.c_str(), g->truth.size(),
                   guess.size(), right.size());
       for (const auto& [pair, odds] : found)
-        if (!right.count(pair)) print("wrong", *g, pair, odds);
+        if (!right.count(pair))
+          print("wrong", *g, pair, odds);
       if (right.size() == guess.size())
         for (const SidePair& pair : g->truth)
-          if (!guess.count(pair)) print("missed", *g, pair, 0);
+          if (!guess.count(pair))
+            print("missed", *g, pair, 0);
     }
     const double p = static_cast<double>(hits) / static_cast<double>(guessed),
                  r = static_cast<double>(hits) / static_cast<double>(sewn);
@@ -235,9 +255,8 @@ private:
   static void print(const char* what, const Garment& g, const SidePair& pair, double odds) {
     std::printf("   %s", what);
     for (int k : pair) {
-      const SeamSide& s = g.sides[static_cast<std::size_t>(k)];
-      std::printf(" %s.%d (%.1f cm)",
-                  g.pattern.panels[static_cast<std::size_t>(s.panel)].name.c_str(), s.first,
+      const SeamSide& s = g.sides[k];
+      std::printf(" %s.%d (%.1f cm)", g.pattern.panels[s.panel].name.c_str(), s.first,
                   100 * s.length);
     }
     std::printf(" %.1f\n", odds);
@@ -264,9 +283,11 @@ int main(int argc, char** argv) {
       continue;
     }
     const Pattern pattern = read_pattern(argv[k], PatternChoice{});
-    if (pattern.seams.empty()) continue;
+    if (pattern.seams.empty())
+      continue;
     all.push_back(prepare(argv[k], pattern));
-    if (all.back()->kept) continue;
+    if (all.back()->kept)
+      continue;
     const bool none = random() % 4 == 0; // joined all through, or here and there
     Pattern other = joined(pattern, [&] { return none && random() % 2 == 0; });
     if (other.panels.size() < pattern.panels.size() && !other.seams.empty())

@@ -19,7 +19,8 @@ template<class Keep> Pattern joined(Pattern pattern, Keep keep) {
     if (detail::can_join(pattern, pattern.seams[k]) && !keep()) {
       detail::join(pattern, k);
       k = 0;
-    } else ++k;
+    } else
+      ++k;
   return pattern;
 }
 

@@ -9,7 +9,7 @@ namespace {
 class Renaming {
 public:
   Renaming(const Pattern& pattern, const std::vector<SeamSide>& sides) : m_sides(sides) {
-    for (int p = 0; p < static_cast<int>(pattern.panels.size()); ++p) {
+    for (int p = 0; p < std::ssize(pattern.panels); ++p) {
       auto& outline = m_outlines.emplace_back();
       for (int e = 0; e < static_cast<int>(pattern.panels[at(p)].loops[0].size()); ++e)
         outline.push_back(measure_side(pattern, p, e, 1));
@@ -30,28 +30,36 @@ public:
       sewn[x[0]] = x[1];
       sewn[x[1]] = x[0];
     }
-    const int n = static_cast<int>(m_outlines.size());
+    const int n = std::ssize(m_outlines);
     m_image.assign(m_outlines.size(), {-1, 0});
     m_used.assign(m_outlines.size(), 0);
     for (int p = 0; p < n; ++p) {
       std::size_t like = 0;
-      for (int q = 0; q < n; ++q) like += shifts(p, q).size();
-      if (like <= 1) put(p, p, 0);
+      for (int q = 0; q < n; ++q)
+        like += shifts(p, q).size();
+      if (like <= 1)
+        put(p, p, 0);
     }
     for (int p = 0; p < n; ++p) {
       follow(guessed, sewn);
-      if (m_image[at(p)].panel >= 0) continue;
-      if (!m_used[at(p)]) put(p, p, 0);
+      if (m_image[at(p)].panel >= 0)
+        continue;
+      if (!m_used[at(p)])
+        put(p, p, 0);
       else
         for (int q = 0; q < n && m_image[at(p)].panel < 0; ++q)
-          if (const auto s = shifts(p, q); !m_used[at(q)] && !s.empty()) put(p, q, s[0]);
+          if (const auto s = shifts(p, q); !m_used[at(q)] && !s.empty())
+            put(p, q, s[0]);
     }
     std::set<SidePair> renamed, plain;
     for (const SidePair& x : guess) {
       int y[2] = {image(x[0]), image(x[1])};
-      if (y[0] > y[1]) std::swap(y[0], y[1]);
-      if (truth.count({y[0], y[1]})) renamed.insert(x);
-      if (truth.count(x)) plain.insert(x);
+      if (y[0] > y[1])
+        std::swap(y[0], y[1]);
+      if (truth.count({y[0], y[1]}))
+        renamed.insert(x);
+      if (truth.count(x))
+        plain.insert(x);
     }
     return renamed.size() >= plain.size() ? renamed : plain;
   }
@@ -73,7 +81,8 @@ private:
                std::abs(x.corner_start - y.corner_start) < 0.03 &&
                std::abs(x.bulge - y.bulge) < 0.01;
       }
-      if (same) out.push_back(static_cast<int>(r));
+      if (same)
+        out.push_back(static_cast<int>(r));
     }
     return out;
   }
@@ -85,7 +94,8 @@ private:
   int image(int side) const {
     const SeamSide& s = m_sides[at(side)];
     const Image& m = m_image[at(s.panel)];
-    if (s.loop_begin > 0 || m.panel < 0) return -1;
+    if (s.loop_begin > 0 || m.panel < 0)
+      return -1;
     return m_side_of[at(m.panel)][at((s.first + m.shift) % s.loop_size)];
   }
   /// A panel that is sewn to one whose image is known has the image that the truth has there.
@@ -94,12 +104,15 @@ private:
       const int p = m_queue.front();
       m_queue.erase(m_queue.begin());
       for (int k : m_side_of[at(p)]) {
-        if (k < 0) continue;
+        if (k < 0)
+          continue;
         const auto to = guessed.find(k);
         const auto there = sewn.find(image(k));
-        if (to == guessed.end() || there == sewn.end()) continue;
+        if (to == guessed.end() || there == sewn.end())
+          continue;
         const SeamSide &own = m_sides[at(to->second)], &other = m_sides[at(there->second)];
-        if (m_image[at(own.panel)].panel >= 0 || m_used[at(other.panel)]) continue;
+        if (m_image[at(own.panel)].panel >= 0 || m_used[at(other.panel)])
+          continue;
         const int n = own.loop_size, shift = ((other.first - own.first) % n + n) % n;
         const std::vector<int> all = shifts(own.panel, other.panel);
         if (std::find(all.begin(), all.end(), shift) != all.end())

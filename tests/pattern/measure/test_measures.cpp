@@ -11,7 +11,8 @@ namespace {
 
 double measure_of(const FinishedMeasures& m, const std::string& name) {
   for (const NamedMeasure& n : m.named)
-    if (n.name == name) return n.value;
+    if (n.name == name)
+      return n.value;
   return 0;
 }
 

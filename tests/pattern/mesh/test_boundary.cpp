@@ -21,7 +21,8 @@ TEST(Boundary, BothSidesOfEverySeamHaveTheSameNumberOfVertices) {
   for (double h : {0.004, 0.015, 0.05}) {
     const PanelMesh mesh = mesh_pattern(own(ONE_TO_N), h, "test.json");
     ASSERT_EQ(mesh.seams.size(), 2u);
-    for (const MeshSeam& s : mesh.seams) EXPECT_EQ(s.a.size(), s.b.size());
+    for (const MeshSeam& s : mesh.seams)
+      EXPECT_EQ(s.a.size(), s.b.size());
   }
 }
 
@@ -31,7 +32,7 @@ TEST(Boundary, ACornerWithinALongEdgeGetsAVertexThere) {
                                        // against its sense, from x = 0
   bool found = false;
   for (int v : mesh.panels[0].outline)
-    found = found || (mesh.pattern[static_cast<std::size_t>(v)] - Vec2(at, 0.2)).norm() < 1e-9;
+    found = found || (mesh.pattern[v] - Vec2(at, 0.2)).norm() < 1e-9;
   EXPECT_TRUE(found);
 }
 
@@ -66,8 +67,8 @@ TEST(Boundary, PartOfAnEdgeCanBeSewn) {
     {"name": "p", "outline": [{"edge": "b", "path": [["M", 0, 0], ["L", 0.4, 0]]}, {"edge": "r", "path": [["L", 0.4, 0.6]]}, {"edge": "t", "path": [["L", 0, 0.6]]}, {"edge": "l", "path": [["L", 0, 0]]}]}],
     "seams": [{"name": "tube with a slit", "a": [{"panel": "p", "edge": "r", "from": 0.25, "to": 1}], "b": [{"panel": "p", "edge": "l", "from": 0.75, "to": 0}]}]})";
   const PanelMesh mesh = mesh_pattern(own(text), 0.02, "test.json");
-  EXPECT_NEAR(mesh.pattern[static_cast<std::size_t>(mesh.seams[0].a.front())].y(), 0.15, 1e-12);
-  EXPECT_NEAR(mesh.pattern[static_cast<std::size_t>(mesh.seams[0].b.front())].y(), 0.15, 1e-12);
+  EXPECT_NEAR(mesh.pattern[mesh.seams[0].a.front()].y(), 0.15, 1e-12);
+  EXPECT_NEAR(mesh.pattern[mesh.seams[0].b.front()].y(), 0.15, 1e-12);
   const Sewn sewn = sew(mesh);
   EXPECT_EQ(sewn.wrong_direction + sewn.non_manifold + sewn.degenerate, 0);
   EXPECT_EQ(sewn.boundary_loops, 2); // the top, and the hem with the slit

@@ -50,20 +50,23 @@ std::string pleated_text(const std::string& edges = R"(["top"])", const std::str
     {"name": "band_r", "a": [{"panel": "waistband_back", "edge": "l"}], "b": [{"panel": "waistband_front", "edge": "r"}]}]})";
 }
 
-std::vector<int> weld_of(const PanelMesh& mesh) { return sew(mesh).weld; }
+std::vector<int> weld_of(const PanelMesh& mesh) {
+  return sew(mesh).weld;
+}
 
 TEST(Pleats, ThreeLayersAreSewnOntoEachOtherAndTheSeamTakesTheUpperOne) {
   const Pattern pattern = own(pleated_text());
   EXPECT_TRUE(check_pattern(pattern).empty())
       << "the lengths that are sewn agree: " << check_pattern(pattern)[0].fact;
   const PanelMesh mesh = mesh_pattern(pattern, 0.006, "t");
-  for (const MeshSeam& s : mesh.seams) EXPECT_EQ(s.a.size(), s.b.size());
+  for (const MeshSeam& s : mesh.seams)
+    EXPECT_EQ(s.a.size(), s.b.size());
   const std::vector<int> weld = weld_of(mesh);
   const auto on_top = [&](double x) { // vertices of the front's top edge at x, cm
     for (int v : mesh.panels[0].outline) {
-      const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)];
+      const Vec2 p = mesh.pattern[v];
       if (std::abs(p.x() * 100 - x) < 1e-6 && std::abs(p.y() - 0.5) < 1e-9)
-        return weld[static_cast<std::size_t>(v)];
+        return weld[v];
     }
     return -1;
   };
@@ -80,9 +83,11 @@ TEST(Pleats, ThreeLayersAreSewnOntoEachOtherAndTheSeamTakesTheUpperOne) {
   // one of the band.
   std::map<int, std::array<int, 4>> count;
   for (std::size_t p = 0; p < 4; ++p)
-    for (int v : mesh.panels[p].outline) ++count[weld[static_cast<std::size_t>(v)]][p];
+    for (int v : mesh.panels[p].outline)
+      ++count[weld[v]][p];
   int threefold = 0;
-  for (const auto& [id, n] : count) threefold += n[0] == 3 && n[2] == 1;
+  for (const auto& [id, n] : count)
+    threefold += n[0] == 3 && n[2] == 1;
   EXPECT_GE(threefold, 3);
   EXPECT_EQ(sew(mesh).degenerate, 0);
 }
@@ -95,8 +100,7 @@ TEST(Pleats, FoldLinesAreEdgesOfTheMeshAndItsAnglesAreGood) {
       double covered = 0; // length of mesh edges on the line, each found from both of its triangles
       for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
-          const Vec2 &a = mesh.pattern[static_cast<std::size_t>(t[k])],
-                     &b = mesh.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
+          const Vec2 &a = mesh.pattern[t[k]], &b = mesh.pattern[t[(k + 1) % 3]];
           if (t[k] < mesh.panels[0].n_vertices && std::abs(a.x() - x) < 1e-6 &&
               std::abs(b.x() - x) < 1e-6)
             covered += 0.5 * (a - b).norm();
@@ -116,8 +120,7 @@ TEST(Pleats, EdgesOfTheirFoldsAreKnown) {
   const PanelMesh mesh = mesh_pattern(own(pleated_text()), 0.008, "t");
   std::map<long, double> length; // by place across, 0.1 mm
   for (const auto& [a, b] : pleat_edges(mesh)) {
-    const Vec2 &p = mesh.pattern[static_cast<std::size_t>(a)],
-               &q = mesh.pattern[static_cast<std::size_t>(b)];
+    const Vec2 &p = mesh.pattern[a], &q = mesh.pattern[b];
     EXPECT_LT(a, b);
     EXPECT_NEAR(p.x(), q.x(), 1e-6);
     length[std::lround(1e4 * p.x())] += (q - p).norm();
@@ -135,15 +138,12 @@ TEST(Pleats, TheyStartFoldedAroundTheBodyWithoutCrossing) {
   EXPECT_EQ(report.vertices_inside + report.faces_through, 0);
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; s.kind == "pleat" && k < s.a.size(); ++k)
-      EXPECT_LT((mesh.placed[static_cast<std::size_t>(s.a[k])] -
-                 mesh.placed[static_cast<std::size_t>(s.b[k])])
-                    .norm(),
-                0.015)
-          << s.name;
+      EXPECT_LT((mesh.placed[s.a[k]] - mesh.placed[s.b[k]]).norm(), 0.015) << s.name;
   // The upper layer lies outside.
   const Folding folding = fold_panels(pattern, mesh);
   double deepest = 0;
-  for (double d : folding.depth) deepest = std::max(deepest, d);
+  for (double d : folding.depth)
+    deepest = std::max(deepest, d);
   EXPECT_NEAR(deepest, 0.009, 0.002);
 }
 
@@ -174,7 +174,7 @@ TEST(Lines, AreKeptByTheFormatsAndTheEdits) {
   EXPECT_EQ(io::to_text(pattern_json(again, "t")), io::to_text(pattern_json(pattern, "t")));
   std::vector<std::string> left_out;
   const Pattern dxf = read_dxf(pattern_dxf(pattern, left_out), "t.dxf");
-  EXPECT_EQ(dxf.panels[static_cast<std::size_t>(dxf.find_panel("skirt_front"))].lines.size(), 5u);
+  EXPECT_EQ(dxf.panels[dxf.find_panel("skirt_front")].lines.size(), 5u);
   EXPECT_EQ(left_out.size(), 3u) << "that pleats become lines is said";
   Pattern edited = pattern;
   apply_edits(edited,
@@ -205,10 +205,12 @@ TEST(Lines, MarksInsideAPanelBecomeMeshEdges) {
   const int n = static_cast<int>(std::lround(curve.length() / 0.012));
   std::set<std::pair<int, int>> edges;
   for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) edges.insert({t[k], t[(k + 1) % 3]});
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.insert({t[k], t[(k + 1) % 3]});
   const auto vertex = [&](const Vec2& p) {
     for (std::size_t v = 0; v < mesh.pattern.size(); ++v)
-      if ((mesh.pattern[v] - p).norm() < 1e-9) return static_cast<int>(v);
+      if ((mesh.pattern[v] - p).norm() < 1e-9)
+        return static_cast<int>(v);
     return -1;
   };
   for (int k = 0; k < n; ++k) {
@@ -239,8 +241,8 @@ TEST(Tapes, ShortenWhatRunsAlongThemAndNothingElse) {
   double least = 1;
   for (std::size_t f = 0; f < scale.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 &a = mesh.pattern[static_cast<std::size_t>(mesh.triangles[f][k])],
-                 &b = mesh.pattern[static_cast<std::size_t>(mesh.triangles[f][(k + 1) % 3])];
+      const Vec2 &a = mesh.pattern[mesh.triangles[f][k]],
+                 &b = mesh.pattern[mesh.triangles[f][(k + 1) % 3]];
       if (static_cast<int>(f) >= mesh.panels[1].first_triangle ||
           std::abs(0.5 * (a + b).y() - 0.315) > 0.03) {
         EXPECT_EQ(scale[f][k], 1);
@@ -258,7 +260,8 @@ TEST(Tapes, ShortenWhatRunsAlongThemAndNothingElse) {
 
 double named(const FinishedMeasures& m, const std::string& name) {
   for (const NamedMeasure& n : m.named)
-    if (n.name == name) return n.value;
+    if (n.name == name)
+      return n.value;
   return 0;
 }
 

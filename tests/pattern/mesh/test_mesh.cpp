@@ -52,11 +52,10 @@ TEST(Mesh, NoTriangleLiesOnThreeBoundaryVertices) {
   const PanelMesh mesh = mesh_pattern(own(tube_text()), 0.015, "test.json");
   std::vector<char> boundary(mesh.pattern.size(), 0);
   for (const PanelInfo& p : mesh.panels)
-    for (int v : p.outline) boundary[static_cast<std::size_t>(v)] = 1;
+    for (int v : p.outline)
+      boundary[v] = 1;
   for (const Triangle& t : mesh.triangles)
-    EXPECT_FALSE(boundary[static_cast<std::size_t>(t[0])] &&
-                 boundary[static_cast<std::size_t>(t[1])] &&
-                 boundary[static_cast<std::size_t>(t[2])]);
+    EXPECT_FALSE(boundary[t[0]] && boundary[t[1]] && boundary[t[2]]);
 }
 
 TEST(Mesh, AnglesStayAboveTwentyFiveDegreesOverSizesAndShapes) {
@@ -78,9 +77,8 @@ TEST(Mesh, AnglesStayAboveTwentyFiveDegreesOverSizesAndShapes) {
                                       std::vector<char>(outer.size() + hole.size(), 0), "disc");
     double worst = 10;
     for (const Triangle& t : mesh.triangles)
-      worst = std::min(worst, smallest_angle(mesh.points[static_cast<std::size_t>(t[0])],
-                                             mesh.points[static_cast<std::size_t>(t[1])],
-                                             mesh.points[static_cast<std::size_t>(t[2])]));
+      worst =
+          std::min(worst, smallest_angle(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
     EXPECT_GT(worst * 180 / 3.14159265358979, 25) << k;
   }
 }
@@ -112,11 +110,12 @@ TEST(Mesh, FinerAlongSeamsOnRequestWithGoodAnglesAndMatchingSeams) {
   far = 1;
   for (const Triangle& t : fine.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 &a = fine.pattern[static_cast<std::size_t>(t[k])],
-                 &b = fine.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
+      const Vec2 &a = fine.pattern[t[k]], &b = fine.pattern[t[(k + 1) % 3]];
       const double off = 0.2 - 0.5 * std::abs(a.x() + b.x());
-      if (off < 0.01) near = std::max(near, (a - b).norm());
-      if (off > 0.12) far = std::min(far, (a - b).norm());
+      if (off < 0.01)
+        near = std::max(near, (a - b).norm());
+      if (off > 0.12)
+        far = std::min(far, (a - b).norm());
     }
   EXPECT_LT(near, 0.018);
   EXPECT_GT(far, 0.015);
@@ -155,7 +154,8 @@ TEST(Mesh, SameBytesOnEveryRunAndForAnyThreadCount) {
   const PanelMesh four = mesh_pattern(pattern, 0.01, "test.json");
   set_thread_count(1);
   ASSERT_EQ(one.pattern.size(), four.pattern.size());
-  for (std::size_t v = 0; v < one.pattern.size(); ++v) EXPECT_EQ(one.pattern[v], four.pattern[v]);
+  for (std::size_t v = 0; v < one.pattern.size(); ++v)
+    EXPECT_EQ(one.pattern[v], four.pattern[v]);
   EXPECT_EQ(one.triangles, four.triangles);
 }
 

@@ -16,7 +16,8 @@ std::string roll(const std::string& path) {
 /// A stand around the neck and a leaf on its upper edge, and a yoke that they hang on. cm.
 Pattern collar_pattern(bool turned) {
   std::string leaf = rectangle("collar", 44, 6);
-  if (turned) leaf.insert(leaf.size() - 1, ", " + roll(R"([["M", 0, 0], ["L", 44, 0]])"));
+  if (turned)
+    leaf.insert(leaf.size() - 1, ", " + roll(R"([["M", 0, 0], ["L", 44, 0]])"));
   return own(
       R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "collar", "panels": [)" +
       rectangle("front", 40, 50) + "," + rectangle("back", 40, 50) + "," +
@@ -66,16 +67,21 @@ TEST(RollLines, ACollarTurnedOverOnItsSeamStartsOutsideOfItsStandAndHangsDown) {
     EXPECT_EQ(report.crossings, 0);
     EXPECT_EQ(report.vertices_inside, 0);
     const Vec3 stand = middle(mesh, 2), leaf = middle(mesh, 3);
-    if (turned) EXPECT_LT(leaf.y(), stand.y()) << "its free edge is down";
-    else EXPECT_GT(leaf.y(), stand.y());
+    if (turned)
+      EXPECT_LT(leaf.y(), stand.y()) << "its free edge is down";
+    else
+      EXPECT_GT(leaf.y(), stand.y());
     double far_stand = 0, near_leaf = 1e300; // from the axis, behind
     for (int k : {2, 3}) {
-      const PanelInfo& info = mesh.panels[static_cast<std::size_t>(k)];
+      const PanelInfo& info = mesh.panels[k];
       for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
-        const Vec3& p = mesh.placed[static_cast<std::size_t>(v)];
-        if (std::abs(p.x()) > 0.02 || p.z() > 0) continue;
-        if (k == 2) far_stand = std::max(far_stand, std::abs(p.z()));
-        else near_leaf = std::min(near_leaf, std::abs(p.z()));
+        const Vec3& p = mesh.placed[v];
+        if (std::abs(p.x()) > 0.02 || p.z() > 0)
+          continue;
+        if (k == 2)
+          far_stand = std::max(far_stand, std::abs(p.z()));
+        else
+          near_leaf = std::min(near_leaf, std::abs(p.z()));
       }
     }
     if (turned) {

@@ -73,17 +73,19 @@ TEST(Placement,
     EXPECT_EQ(report.faces_through, 0);
     const double a = arm * M_PI / 180;
     for (int v = 0; v < mesh.panels[1].first_vertex + mesh.panels[1].n_vertices; ++v) {
-      const Vec3& p = mesh.placed[static_cast<std::size_t>(v)];
-      if (p.y() > 1.22) continue; // the arm pits are at 1.29 m
+      const Vec3& p = mesh.placed[v];
+      if (p.y() > 1.22)
+        continue; // the arm pits are at 1.29 m
       EXPECT_LT(std::abs(p.x()), 0.19 + (1.36 - p.y()) * std::tan(a) - 0.03)
           << "beyond the inner side of the arm at " << p.y();
     }
     double across = 0, cloth = 0; // a level row keeps its length
     for (int f = mesh.panels[0].first_triangle;
          f < mesh.panels[0].first_triangle + mesh.panels[0].n_triangles; ++f) {
-      const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
+      const Triangle& t = mesh.triangles[f];
       const auto at = [&](std::size_t k) { return static_cast<std::size_t>(t[k]); };
-      if (mesh.placed[at(0)].y() > 1.2) continue;
+      if (mesh.placed[at(0)].y() > 1.2)
+        continue;
       across += (mesh.placed[at(1)] - mesh.placed[at(0)])
                     .cross(mesh.placed[at(2)] - mesh.placed[at(0)])
                     .norm();
@@ -107,15 +109,14 @@ TEST(Placement, LongSleevesEndAtTheWristAndTheirEdgesMeetBeyondTheArm) {
     const PanelInfo& sleeve = mesh.panels[2];
     double farthest = 0;
     for (int v = sleeve.first_vertex; v < sleeve.first_vertex + sleeve.n_vertices; ++v)
-      farthest =
-          std::max(farthest, (mesh.placed[static_cast<std::size_t>(v)] - shoulder).dot(along));
+      farthest = std::max(farthest, (mesh.placed[v] - shoulder).dot(along));
     EXPECT_NEAR(farthest, (wrist - shoulder).norm() + 0.03, 0.005);
     for (const MeshSeam& seam : mesh.seams) {
-      if (seam.name != "under_l") continue;
+      if (seam.name != "under_l")
+        continue;
       for (std::size_t k = 0; k < seam.a.size();
            ++k) { // the line between both edges passes below the arm's axis
-        const Vec3 &a = mesh.placed[static_cast<std::size_t>(seam.a[k])],
-                   &b = mesh.placed[static_cast<std::size_t>(seam.b[k])];
+        const Vec3 &a = mesh.placed[seam.a[k]], &b = mesh.placed[seam.b[k]];
         const Vec3 axis = shoulder + (a - shoulder).dot(along) * along;
         const Vec3 outwards =
             Vec3(1, 1, 0) - Vec3(1, 1, 0).dot(along) * along; // where the middle of the sleeve is
@@ -170,14 +171,12 @@ TEST(Placement, SleevesCutInOneWithTheTrunkLieAlongTheArmsHoweverTheyHang) {
       EXPECT_EQ(report.vertices_inside, 0);
       EXPECT_EQ(report.faces_through, 0);
       for (int p = 0; p < 2; ++p) {
-        const PanelInfo& info = mesh.panels[static_cast<std::size_t>(p)];
+        const PanelInfo& info = mesh.panels[p];
         double least = 1e300; // no part of a panel lies on another: seen from outside, all
                               // triangles keep their sense
         for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f) {
-          const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
-          const auto at = [&](std::size_t k) {
-            return mesh.placed[static_cast<std::size_t>(t[k])];
-          };
+          const Triangle& t = mesh.triangles[f];
+          const auto at = [&](std::size_t k) { return mesh.placed[t[k]]; };
           least = std::min(least, (p == 0 ? 1 : -1) * (at(1) - at(0)).cross(at(2) - at(0)).z());
         }
         EXPECT_GT(least, -1e-12) << info.name;
@@ -187,9 +186,8 @@ TEST(Placement, SleevesCutInOneWithTheTrunkLieAlongTheArmsHoweverTheyHang) {
           Vec3 end = Vec3::Zero();
           int n = 0;
           for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
-            if (const double u = (p == 0 ? 1 : -1) * mesh.pattern[static_cast<std::size_t>(v)].x();
-                side * u > 0.585) {
-              end += mesh.placed[static_cast<std::size_t>(v)];
+            if (const double u = (p == 0 ? 1 : -1) * mesh.pattern[v].x(); side * u > 0.585) {
+              end += mesh.placed[v];
               ++n;
             }
           end /= n;
@@ -233,13 +231,11 @@ TEST(Placement, OutsidesLookAwayFromTheBody) {
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   place_panels(pattern, stick_body(45), mesh);
   for (int p = 0; p < 2; ++p) {
-    const PanelInfo& info = mesh.panels[static_cast<std::size_t>(p)];
+    const PanelInfo& info = mesh.panels[p];
     Vec3 normal = Vec3::Zero();
     for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t) {
-      const Triangle& tri = mesh.triangles[static_cast<std::size_t>(t)];
-      normal += area_normal(mesh.placed[static_cast<std::size_t>(tri[0])],
-                            mesh.placed[static_cast<std::size_t>(tri[1])],
-                            mesh.placed[static_cast<std::size_t>(tri[2])]);
+      const Triangle& tri = mesh.triangles[t];
+      normal += area_normal(mesh.placed[tri[0]], mesh.placed[tri[1]], mesh.placed[tri[2]]);
     }
     EXPECT_GT(normal.z() * (p ? -1 : 1), 0) << info.name;
   }
@@ -295,9 +291,7 @@ TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
   EXPECT_EQ(mesh.panels[1].part, "leg_r");
   for (const PanelInfo& info : {mesh.panels[0], mesh.panels[1]})
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
-      EXPECT_GT(mesh.placed[static_cast<std::size_t>(v)].x() * (info.part == "leg_l" ? 1 : -1),
-                0.004)
-          << info.name;
+      EXPECT_GT(mesh.placed[v].x() * (info.part == "leg_l" ? 1 : -1), 0.004) << info.name;
   const Vec2 seat(24, 102);
   for (std::size_t v = 0; v < mesh.pattern.size(); ++v)
     if ((mesh.pattern[v] - 0.01 * seat).norm() < 1e-6 ||
@@ -322,7 +316,8 @@ Pattern box_trousers(const std::string& more_panels = "", const std::string& mor
       text +=
           R"({"edge": "hem", "path": [["M", -26, 0], ["L", 0, 0]]}, {"edge": "in", "path": [["L", 5, 74]]}, {"edge": "centre", "path": [["L", 0, 103]]},
         {"edge": "waist", "path": [["L", -24, 103]]}, {"edge": "out", "path": [["L", -26, 0]]}]})";
-    if (std::string(name) != "back_r") text += ",";
+    if (std::string(name) != "back_r")
+      text += ",";
   }
   text += more_panels + R"(], "seams": [)";
   const char* pairs[][3] = {{"front_l", "out", "back_l"},     {"front_r", "out", "back_r"},
@@ -352,7 +347,8 @@ TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace)
   const PlacementReport report = place_panels(pattern, body, mesh);
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
   double bottom = 1e300, longest = 0, longest_above = 0;
-  for (const Vec3& p : mesh.placed) bottom = std::min(bottom, p.y());
+  for (const Vec3& p : mesh.placed)
+    bottom = std::min(bottom, p.y());
   EXPECT_EQ(mesh.panels[0].part, "leg_l");
   EXPECT_LT(top_of(mesh), 1.09) << "103 cm below this would end in the feet";
   EXPECT_GT(bottom, 0.08) << "above the ankles";
@@ -370,14 +366,11 @@ TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace)
   // Each leg on its own side, its seams beside each other at equal heights, and straight: no waves.
   for (const PanelInfo& info : mesh.panels)
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
-      EXPECT_GT(mesh.placed[static_cast<std::size_t>(v)].x() * (info.part == "leg_l" ? 1 : -1),
-                0.004)
-          << info.name;
+      EXPECT_GT(mesh.placed[v].x() * (info.part == "leg_l" ? 1 : -1), 0.004) << info.name;
   for (const MeshSeam& s : mesh.seams) {
     const bool leg = s.name.find("centre") == std::string::npos;
     for (std::size_t k = 0; leg && k < s.a.size(); ++k) {
-      const Vec3 &a = mesh.placed[static_cast<std::size_t>(s.a[k])],
-                 &b = mesh.placed[static_cast<std::size_t>(s.b[k])];
+      const Vec3 &a = mesh.placed[s.a[k]], &b = mesh.placed[s.b[k]];
       EXPECT_NEAR(a.y(), b.y(), 0.02) << s.name;
       if (a.y() < 0.7 && s.name.find("in") != std::string::npos) {
         EXPECT_LT((a - b).norm(), 0.06) << s.name;
@@ -385,9 +378,7 @@ TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace)
     }
   }
   for (std::size_t k = 1; k + 1 < mesh.seams[0].a.size(); ++k) {
-    const auto at = [&](std::size_t i) {
-      return mesh.placed[static_cast<std::size_t>(mesh.seams[0].a[i])];
-    };
+    const auto at = [&](std::size_t i) { return mesh.placed[mesh.seams[0].a[i]]; };
     if (std::max(at(k - 1).y(), at(k + 1).y()) < 0.7) {
       EXPECT_LT((at(k - 1) - 2 * at(k) + at(k + 1)).norm(), 0.008)
           << "the side seam bends at " << at(k).y();
@@ -456,7 +447,8 @@ TEST(Placement, CuffsOfTrousersGoAroundTheirLegs) {
       panels += "," + rectangle(cuff, 20, 6);
       seams += R"(, {"name": ")" + cuff + R"(", "a": [{"panel": ")" + leg +
                R"(", "edge": "hem"}], "b": [{"panel": ")" + cuff + R"(", "edge": "top"}]})";
-      if (std::string(at) == "back") continue;
+      if (std::string(at) == "back")
+        continue;
       for (const char* ends : {"lr", "rl"})
         seams += R"(, {"name": ")" + cuff + ends + R"(", "a": [{"panel": ")" + cuff +
                  R"(", "edge": ")" + ends[0] + R"("}], "b": [{"panel": "cuff_back_)" + side +
@@ -469,9 +461,11 @@ TEST(Placement, CuffsOfTrousersGoAroundTheirLegs) {
         const bool front = panel.name.find("front") != std::string::npos,
                    cuff = panel.name.rfind("cuff", 0) == 0;
         panel.hint.rigid = Mat4::Identity();
-        if (!front) panel.hint.rigid->topLeftCorner<3, 3>() = Vec3(-1, 1, -1).asDiagonal();
+        if (!front)
+          panel.hint.rigid->topLeftCorner<3, 3>() = Vec3(-1, 1, -1).asDiagonal();
         double middle = 0; // a cuff is drawn from x = 0 on
-        if (cuff) middle = (front ? -0.1 : 0.1) + (panel.name.back() == 'l' ? 0.13 : -0.13);
+        if (cuff)
+          middle = (front ? -0.1 : 0.1) + (panel.name.back() == 'l' ? 0.13 : -0.13);
         panel.hint.rigid->topRightCorner<3, 1>() =
             Vec3(middle, cuff ? -0.06 : 0, front ? 0.3 : -0.3);
       }
@@ -569,7 +563,8 @@ TEST(Placement,
   for (Panel& panel : pattern.panels) {
     panel.hint.rigid = Mat4::Identity();
     const bool front = panel.name == "front";
-    if (!front) panel.hint.rigid->topLeftCorner<3, 3>() = Vec3(-1, 1, -1).asDiagonal();
+    if (!front)
+      panel.hint.rigid->topLeftCorner<3, 3>() = Vec3(-1, 1, -1).asDiagonal();
     panel.hint.rigid->topRightCorner<3, 1>() =
         Vec3(front ? -0.26 : 0.26, panel.name == "yoke" ? 1.26 : 0.9, front ? 0.3 : -0.3);
   }
@@ -588,7 +583,8 @@ TEST(Placement, AStraplessTopIsPutOnTheChest) {
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   const PlacementReport report = place_panels(pattern, stick_body(45), mesh);
   double top = 0;
-  for (const Vec3& p : mesh.placed) top = std::max(top, p.y());
+  for (const Vec3& p : mesh.placed)
+    top = std::max(top, p.y());
   EXPECT_NEAR(top, 0.76 * 1.7, 0.01);
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
 }
@@ -598,13 +594,15 @@ TEST(Placement, WithoutABodyPanelsLieFlatAndSaySo) {
   PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
   lay_flat(pattern, mesh);
   EXPECT_EQ(mesh.placement, Placement::FLAT);
-  for (const Vec3& p : mesh.placed) EXPECT_EQ(p.z(), 0);
+  for (const Vec3& p : mesh.placed)
+    EXPECT_EQ(p.z(), 0);
   EXPECT_NE(mesh.findings.back().text.find("lie flat"), std::string::npos);
 }
 
 TEST(Placement, SharedPatternsStandFreeAroundAFigure) {
   const char* shared = std::getenv("SLOPER_SHARED");
-  if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
+  if (!shared)
+    GTEST_SKIP() << "SLOPER_SHARED is not set";
   const body::Body body = stick_body(48, 1.0);
   int n = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(

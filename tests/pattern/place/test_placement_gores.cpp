@@ -19,13 +19,12 @@ struct Placed {
       for (std::size_t k = 0; k < s.a.size(); ++k) {
         const auto of = [&](int v) {
           for (const PanelInfo& p : mesh.panels)
-            if (v >= p.first_vertex && v < p.first_vertex + p.n_vertices) return p.name;
+            if (v >= p.first_vertex && v < p.first_vertex + p.n_vertices)
+              return p.name;
           return std::string();
         };
         if (of(s.a[k]).rfind(begin, 0) == 0 && of(s.b[k]).rfind(begin, 0) == 0)
-          out.push_back((mesh.placed[static_cast<std::size_t>(s.a[k])] -
-                         mesh.placed[static_cast<std::size_t>(s.b[k])])
-                            .norm());
+          out.push_back((mesh.placed[s.a[k]] - mesh.placed[s.b[k]]).norm());
       }
     std::sort(out.begin(), out.end());
     return out;
@@ -53,7 +52,7 @@ struct Placed {
     Vec2 y(1e300, -1e300);
     const PanelInfo& p = panel(name);
     for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v) {
-      const double at = mesh.placed[static_cast<std::size_t>(v)].y();
+      const double at = mesh.placed[v].y();
       y = Vec2(std::min(y.x(), at), std::max(y.y(), at));
     }
     return y;
@@ -111,7 +110,8 @@ TEST(PlacementOfGores, AWholeCircleInQuartersStartsInFoldsAndKeepsItsShape) {
     EXPECT_LT(skirt.report.seam_gap_max, 0.1);
     EXPECT_GT(skirt.share_within(0.65, 1.25), 0.97) << "edges go straight across folds";
     double widest = 0;
-    for (const Vec3& p : skirt.mesh.placed) widest = std::max(widest, std::abs(p.x()));
+    for (const Vec3& p : skirt.mesh.placed)
+      widest = std::max(widest, std::abs(p.x()));
     EXPECT_LT(widest, 0.55) << "it stays between the arms";
   }
 }

@@ -11,14 +11,15 @@ namespace {
 Pattern two_box_skirts(double inner, double outer) {
   Pattern both = box_skirt(inner);
   const Pattern other = box_skirt(outer);
-  const int panels = static_cast<int>(both.panels.size());
+  const int panels = std::ssize(both.panels);
   for (Panel panel : other.panels) {
     both.panels.push_back(std::move(panel));
     both.panels.back().name += "_over";
   }
   for (Seam seam : other.seams) {
     for (auto* side : {&seam.a, &seam.b})
-      for (auto& part : *side) part.panel += panels;
+      for (auto& part : *side)
+        part.panel += panels;
     both.seams.push_back(std::move(seam));
     both.seams.back().name += "_over";
   }
@@ -72,7 +73,8 @@ TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
   EXPECT_NEAR(top_of(mesh), 1.05, 0.15);
   double widest = 0, drawn = 0, placed = 0;
-  for (const Vec3& p : mesh.placed) widest = std::max(widest, std::abs(p.x()));
+  for (const Vec3& p : mesh.placed)
+    widest = std::max(widest, std::abs(p.x()));
   EXPECT_LT(widest, 0.45)
       << "it stays between the arms; laid on a cylinder it reaches out to 0.5 m";
   const auto& hem = mesh.panels[0].outline;
@@ -142,7 +144,8 @@ TEST(Placement, ASkirtWhoseSideSeamsAreInTwoLengthsHasNoLegsAndItsHalvesHangBoth
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
-  for (const PanelInfo& info : mesh.panels) EXPECT_EQ(info.part, "torso") << info.name;
+  for (const PanelInfo& info : mesh.panels)
+    EXPECT_EQ(info.part, "torso") << info.name;
   for (const int k : {0, 2}) { // front_l and front_r, back_r and back_l
     const Vec3 a = middle(mesh, k), b = middle(mesh, k + 1);
     EXPECT_NEAR(a.x() + b.x(), 0, 0.005);
@@ -190,8 +193,7 @@ TEST(Placement, GoresThatLieAlongTheClothStandUprightInARing) {
       double width[2] = {0, 0};
       for (int v : info.outline)
         for (int w : info.outline) {
-          const Vec3 &p = mesh.placed[static_cast<std::size_t>(v)],
-                     &q = mesh.placed[static_cast<std::size_t>(w)];
+          const Vec3 &p = mesh.placed[v], &q = mesh.placed[w];
           const Vec3 middle_of = middle(mesh, static_cast<int>(&info - mesh.panels.data()));
           double& most = width[p.y() > middle_of.y()];
           if ((p.y() > middle_of.y()) == (q.y() > middle_of.y()))
@@ -217,10 +219,10 @@ TEST(Placement, APanelOfAnOuterLayerLiesOverTheOneThatItIsSewnTo) {
   const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
   for (const MeshSeam& s : mesh.seams) {
-    if (s.name != "c") continue;
+    if (s.name != "c")
+      continue;
     for (std::size_t k = 0; k < s.a.size(); ++k) {
-      const Vec3 &under = mesh.placed[static_cast<std::size_t>(s.a[k])],
-                 &over = mesh.placed[static_cast<std::size_t>(s.b[k])];
+      const Vec3 &under = mesh.placed[s.a[k]], &over = mesh.placed[s.b[k]];
       EXPECT_NEAR((over - under).norm(), 0.012, 0.01);
       EXPECT_GT(over.z(), under.z());
     }
@@ -239,7 +241,8 @@ TEST(Placement, ASkirtInQuartersIsNoTrousersThoughItsSidesAreDrawnInTwoEdges) {
   const Pattern pattern = skirt.pattern();
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
-  for (const PanelInfo& panel : mesh.panels) EXPECT_EQ(panel.part, "torso") << panel.name;
+  for (const PanelInfo& panel : mesh.panels)
+    EXPECT_EQ(panel.part, "torso") << panel.name;
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
 }
 
@@ -269,7 +272,8 @@ TEST(Placement, AWholeCircleInThreeSectorsStandsAroundTheBodyInOneRow) {
   const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
   EXPECT_TRUE(report.impossible.empty());
   EXPECT_LT(report.seam_gap_mean, 0.1);
-  for (int k = 1; k < 3; ++k) EXPECT_NEAR(middle(mesh, k).y(), middle(mesh, 0).y(), 0.05);
+  for (int k = 1; k < 3; ++k)
+    EXPECT_NEAR(middle(mesh, k).y(), middle(mesh, 0).y(), 0.05);
 }
 
 } // namespace

@@ -47,9 +47,9 @@ Pattern two_panel_top(const std::string& front, const std::string& back, bool ly
 double height_at(const PanelMesh& mesh, std::size_t panel, double at, bool lying) {
   double sum = 0, n = 0;
   for (int v : mesh.panels[panel].outline) {
-    const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+    const Vec2& p = mesh.pattern[v];
     if (std::abs((lying ? p.x() : p.y()) - at) < 0.03) {
-      sum += mesh.placed[static_cast<std::size_t>(v)].y();
+      sum += mesh.placed[v].y();
       ++n;
     }
   }
@@ -157,12 +157,12 @@ TEST(PlacementUnnamed, AFlounceAtASleeveLiesAlongTheArmThoughItsSidesLeanFarOut)
     EXPECT_EQ(mesh.panels[panel].part, "arm_l");
     double near = 0, far = 0, n_near = 0, n_far = 0;
     for (int v : mesh.panels[panel].outline) {
-      const double reach = (mesh.placed[static_cast<std::size_t>(v)] - shoulder).norm();
-      if (mesh.pattern[static_cast<std::size_t>(v)].y() > 0.059) {
+      const double reach = (mesh.placed[v] - shoulder).norm();
+      if (mesh.pattern[v].y() > 0.059) {
         near += reach;
         ++n_near;
       }
-      if (mesh.pattern[static_cast<std::size_t>(v)].y() < 0.001) {
+      if (mesh.pattern[v].y() < 0.001) {
         far += reach;
         ++n_far;
       }
@@ -198,10 +198,10 @@ TEST(PlacementUnnamed, ABandThatLiesStandsOnItsSeamAndGoesRoundTheSameWay) {
   place_panels(pattern, stick_body(45), mesh);
   const double band = middle(mesh, 2).y();
   for (const MeshSeam& seam : mesh.seams) {
-    if (seam.name != "waist") continue;
+    if (seam.name != "waist")
+      continue;
     for (std::size_t k = 0; k < seam.a.size(); ++k) {
-      const Vec3 &a = mesh.placed[static_cast<std::size_t>(seam.a[k])],
-                 &b = mesh.placed[static_cast<std::size_t>(seam.b[k])];
+      const Vec3 &a = mesh.placed[seam.a[k]], &b = mesh.placed[seam.b[k]];
       EXPECT_LT(a.y(), band + 1e-9) << "the seam is below";
       if (std::min(std::abs(a.x()), std::abs(b.x())) > 0.05) {
         EXPECT_GT(a.x() * b.x(), 0) << "left is sewn to left";

@@ -72,11 +72,13 @@ TEST(Check, FindingsGoIntoSarif) {
 TEST(FinishedMeasures, ATubeHasTwoOpeningsAndOneGirth) {
   const FinishedMeasures m = finished_measures(own(tube_text()), "t");
   ASSERT_EQ(m.openings.size(), 2u);
-  for (const Opening& o : m.openings) EXPECT_NEAR(o.length, 0.8, 1e-9);
+  for (const Opening& o : m.openings)
+    EXPECT_NEAR(o.length, 0.8, 1e-9);
   EXPECT_EQ(m.openings[0].edges.size(), 2u);
   EXPECT_NEAR(m.cloth_m2, 0.48, 1e-9);
   ASSERT_GE(m.around.size(), 5u);
-  for (const auto& [depth, length] : m.around) EXPECT_NEAR(length, 0.8, 1e-6) << depth;
+  for (const auto& [depth, length] : m.around)
+    EXPECT_NEAR(length, 0.8, 1e-6) << depth;
   EXPECT_NEAR(m.seams[0].second, 0.6, 1e-9);
 }
 

@@ -48,7 +48,7 @@ Pattern read(const std::string& text) {
 
 Vec2 start_of(const Pattern& p, const std::vector<Run>& side) {
   const Run& run = side.front();
-  const Path& path = p.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path;
+  const Path& path = p.panels[run.panel].edge(run.edge).path;
   return ArcLength(path).at(run.from * length(path));
 }
 

@@ -53,7 +53,8 @@ TEST(GradeRules, MoveGradedPointsAndWhatLiesBetween) {
       << "the right side moved out by 2 cm and up by 0.5";
   bool middle = false;
   for (const PanelEdge& e : p.panels[0].loops[0])
-    for (const Segment& s : e.path) middle = middle || (s.p[0] - Vec2(0.21, 0.0025)).norm() < 1e-9;
+    for (const Segment& s : e.path)
+      middle = middle || (s.p[0] - Vec2(0.21, 0.0025)).norm() < 1e-9;
   EXPECT_TRUE(middle) << "half way, half the move";
   EXPECT_NEAR(outline_area(read_dxf(graded_block(), "p.dxf", {"", &rules}).panels[0]), 0.12, 1e-12)
       << "the sample size stays";
@@ -125,7 +126,8 @@ TEST(Dxf, TheOrderOfPiecesDoesNotMatter) {
   std::vector<double> areas;
   do {
     std::string all;
-    for (std::size_t k : order) all += blocks[k];
+    for (std::size_t k : order)
+      all += blocks[k];
     const Pattern p = read_dxf(file(all), "p.dxf");
     std::vector<std::string> got;
     std::vector<double> area;

@@ -253,12 +253,16 @@ TEST(Readers, CutTextsNeverCrash) { // a truncated or damaged file is refused or
     for (std::size_t n = 0; n < whole.size(); n += 37) {
       for (int damage = 0; damage < 2; ++damage) {
         std::string text = damage ? whole : whole.substr(0, n);
-        if (damage) text[n] = static_cast<char>('0' + n % 10);
+        if (damage)
+          text[n] = static_cast<char>('0' + n % 10);
         try {
           Pattern p;
-          if (kind == 0) p = read_pattern_json(io::parse_json(text, "x"), "x");
-          else if (kind == 1) p = read_garmentcode(io::parse_json(text, "x"), "x");
-          else p = read_dxf(text, "x");
+          if (kind == 0)
+            p = read_pattern_json(io::parse_json(text, "x"), "x");
+          else if (kind == 1)
+            p = read_garmentcode(io::parse_json(text, "x"), "x");
+          else
+            p = read_dxf(text, "x");
           finish_pattern(p, "x");
         } catch (const Error&) {}
       }

@@ -38,7 +38,9 @@ std::string file(const std::string& blocks) {
          text(0, 0, "Units: METRIC") + "0\nENDSEC\n0\nEOF\n";
 }
 
-Points box(double w, double h) { return {{0, 0}, {w, 0}, {w, h}, {0, h}}; }
+Points box(double w, double h) {
+  return {{0, 0}, {w, 0}, {w, h}, {0, h}};
+}
 Points sleeve() {
   return {{0, 0}, {300, 0}, {340, 200}, {250, 330}, {140, 350}, {60, 300}, {-40, 200}};
 } // its cap leans to one side
@@ -50,7 +52,8 @@ bool found(const Pattern& p, const std::string& words) {
 
 std::vector<std::string> names(const Pattern& p) {
   std::vector<std::string> out;
-  for (const Panel& panel : p.panels) out.push_back(panel.name);
+  for (const Panel& panel : p.panels)
+    out.push_back(panel.name);
   return out;
 }
 

@@ -12,7 +12,8 @@ namespace {
 std::vector<std::string> shared_patterns() {
   std::vector<std::string> files;
   const char* shared = std::getenv("SLOPER_SHARED");
-  if (!shared) return files;
+  if (!shared)
+    return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
            std::filesystem::path(shared) / "data/patterns")) {
     const std::string name = entry.path().string();
@@ -20,7 +21,8 @@ std::vector<std::string> shared_patterns() {
       return name.size() > tail.size() &&
              name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
     };
-    if (ends("_specification.json") || ends(".sew.json") || ends(".dxf")) files.push_back(name);
+    if (ends("_specification.json") || ends(".sew.json") || ends(".dxf"))
+      files.push_back(name);
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -28,14 +30,16 @@ std::vector<std::string> shared_patterns() {
 
 TEST(SharedPatterns, AllMeshIntoOrientedManifoldsWithGoodAnglesAndTheRightArea) {
   const auto files = shared_patterns();
-  if (files.empty()) GTEST_SKIP() << "SLOPER_SHARED is not set";
+  if (files.empty())
+    GTEST_SKIP() << "SLOPER_SHARED is not set";
   for (const std::string& file : files) {
     SCOPED_TRACE(file);
     const Pattern pattern = read_pattern(file, "");
     const PanelMesh mesh = mesh_pattern(pattern, 0.015, file);
     EXPECT_EQ(mesh.seams.size(), pattern.seams.size());
     EXPECT_GE(smallest_angle_deg(mesh), 25);
-    for (const MeshSeam& s : mesh.seams) EXPECT_EQ(s.a.size(), s.b.size());
+    for (const MeshSeam& s : mesh.seams)
+      EXPECT_EQ(s.a.size(), s.b.size());
     for (std::size_t p = 0; p < pattern.panels.size(); ++p)
       EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]) / outline_area(pattern.panels[p]), 1, 1e-3)
           << mesh.panels[p].name;
@@ -51,10 +55,12 @@ TEST(SharedPatterns, AllMeshIntoOrientedManifoldsWithGoodAnglesAndTheRightArea) 
 
 TEST(SharedPatterns, SidecarAndTextsSewTheSame) {
   const auto files = shared_patterns();
-  if (files.empty()) GTEST_SKIP() << "SLOPER_SHARED is not set";
+  if (files.empty())
+    GTEST_SKIP() << "SLOPER_SHARED is not set";
   for (const std::string& file : files) {
     const std::string stem = file.substr(0, file.rfind('.'));
-    if (!std::filesystem::exists(stem + ".seams.json")) continue;
+    if (!std::filesystem::exists(stem + ".seams.json"))
+      continue;
     const Pattern by_texts = read_pattern(file, "");
     Pattern by_sidecar = by_texts;
     by_sidecar.seams.clear();

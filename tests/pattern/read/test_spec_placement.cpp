@@ -21,7 +21,8 @@ std::string ring_of_gores(bool maya, const std::string& curves) {
     Mat3 r = (Eigen::AngleAxisd(turn, Vec3::UnitY()) * Eigen::AngleAxisd(tilt, Vec3::UnitX()))
                  .toRotationMatrix();
     Vec3 angles(units::degrees(tilt), units::degrees(turn), 0); // Rz Ry Rx
-    if (!maya) angles = r.eulerAngles(0, 1, 2) * (180 / units::PI);
+    if (!maya)
+      angles = r.eulerAngles(0, 1, 2) * (180 / units::PI);
     const Vec3 at = Vec3(30 * std::sin(turn), 60, 30 * std::cos(turn));
     const auto triple = [](const Vec3& v) {
       return "[" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " +
@@ -76,11 +77,13 @@ TEST(SpecPlacement, PanelsThatAllLieInOnePlaneWereNeverPlaced) {
            R"(}, "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 3}]]}, "properties": {"units_in_meter": 100}})";
   };
   const Pattern flat = read_garmentcode(io::parse_json(spec(0), "spec.json"), "spec.json");
-  for (const Panel& panel : flat.panels) EXPECT_FALSE(panel.hint.rigid) << panel.name;
+  for (const Panel& panel : flat.panels)
+    EXPECT_FALSE(panel.hint.rigid) << panel.name;
   ASSERT_EQ(flat.findings.size(), 1u);
   EXPECT_NE(flat.findings[0].text.find("placed in one plane"), std::string::npos);
   const Pattern placed = read_garmentcode(io::parse_json(spec(-40), "spec.json"), "spec.json");
-  for (const Panel& panel : placed.panels) EXPECT_TRUE(panel.hint.rigid) << panel.name;
+  for (const Panel& panel : placed.panels)
+    EXPECT_TRUE(panel.hint.rigid) << panel.name;
 }
 
 TEST(SpecPlacement, OnePanelThatIsPlacedWrongIsBroughtToItsSeams) {

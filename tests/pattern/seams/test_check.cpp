@@ -32,7 +32,9 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-TEST(Check, AGoodPatternHasNoFindings) { EXPECT_TRUE(check_pattern(own(tube_text())).empty()); }
+TEST(Check, AGoodPatternHasNoFindings) {
+  EXPECT_TRUE(check_pattern(own(tube_text())).empty());
+}
 
 TEST(Check, CrossingOutlineNamesBothEdgesAndThePlace) {
   const std::string bow = one_panel(

@@ -167,7 +167,7 @@ TEST(Inference, HalvesOfSleevesAreNotSewnToThoseOfTheOtherArm) {
                           back = {{0, 0}, {14, 0}, {14, 26}, {7, 22}, {-4, 14}};
   Pattern p = outlines({{"SLEEVE FR", front}, {"SLEEVE BK", back}});
   for (int k : {0, 1}) {
-    p.panels.push_back(mirror_image(p.panels[static_cast<std::size_t>(k)]));
+    p.panels.push_back(mirror_image(p.panels[k]));
     p.panels.back().name += "_mirror";
   }
   for (const SeamGuess& g : infer_seams(p)) {
@@ -178,7 +178,8 @@ TEST(Inference, HalvesOfSleevesAreNotSewnToThoseOfTheOtherArm) {
 
 TEST(Inference, HemsAreNeverSewn) {
   const Pattern p = unsewn(true);
-  for (const SeamGuess& g : infer_seams(p)) EXPECT_EQ(g.seam.name.find("hem"), std::string::npos);
+  for (const SeamGuess& g : infer_seams(p))
+    EXPECT_EQ(g.seam.name.find("hem"), std::string::npos);
 }
 
 TEST(Inference, SleevesOfATShirtCloseOnThemselves) {

@@ -126,7 +126,8 @@ TEST(MissingSeams, ThreeLikePiecesWrappedAroundAreLeftOpen) {
 std::string findings(const Pattern& pattern, const std::string& rule) {
   std::string all;
   for (const PatternFinding& f : check_pattern(pattern))
-    if (f.rule == rule) all += f.severity + ": " + f.place + ": " + f.fact + "\n";
+    if (f.rule == rule)
+      all += f.severity + ": " + f.place + ": " + f.fact + "\n";
   return all;
 }
 
@@ -144,7 +145,8 @@ TEST(Check, SizesOfNoPersonNameTheUnitToCheck) {
     for (Panel& panel : pattern.panels)
       for (PanelEdge& e : panel.loops[0])
         for (Segment& s : e.path)
-          for (Vec2& p : s.p) p *= factor;
+          for (Vec2& p : s.p)
+            p *= factor;
     return pattern;
   };
   EXPECT_EQ(findings(scaled(1), "wrong-unit"), "");

@@ -60,12 +60,15 @@ std::vector<SeamGuess> sides_and_shoulders() {
   return {guess(0, 1, 1, 8), guess(0, 8, 1, 1), guess(0, 3, 1, 6), guess(0, 6, 1, 3)};
 }
 
-double length_of(const Pattern& p, const std::vector<Run>& side) { return side_length(p, side); }
+double length_of(const Pattern& p, const std::vector<Run>& side) {
+  return side_length(p, side);
+}
 
 TEST(Rims, OfATopAreItsHemNeckAndArmholes) {
   const Pattern p = shirt(0, "sleeve ");
   std::vector<Seam> seams;
-  for (const SeamGuess& g : sides_and_shoulders()) seams.push_back(g.seam);
+  for (const SeamGuess& g : sides_and_shoulders())
+    seams.push_back(g.seam);
   std::vector<double> trunk;
   for (const Rim& r : rims_of(p, seams))
     if (r.has(0)) {
@@ -85,7 +88,8 @@ TEST(RimSeams, SleevesGoIntoArmholesWithTheLongerHalfAtTheLongerOne) {
     const std::vector<SeamGuess> all = with_rim_seams(p, guesses);
     for (const SeamGuess& g : all) {
       EXPECT_TRUE(g.certain) << g.seam.name;
-      if (g.seam.name.find(" cap ") != std::string::npos) caps.push_back(&g);
+      if (g.seam.name.find(" cap ") != std::string::npos)
+        caps.push_back(&g);
     }
     ASSERT_EQ(caps.size(), 4u);
     for (const SeamGuess* g : caps) {
@@ -95,7 +99,8 @@ TEST(RimSeams, SleevesGoIntoArmholesWithTheLongerHalfAtTheLongerOne) {
       EXPECT_NEAR(length_of(p, g->seam.b), panel == 1 ? 0.2305 : 0.2256, 1e-3);
     }
     std::set<std::pair<int, int>> edges;
-    for (const SeamGuess* g : caps) edges.insert({g->seam.b[0].panel, g->seam.b[0].edge});
+    for (const SeamGuess* g : caps)
+      edges.insert({g->seam.b[0].panel, g->seam.b[0].edge});
     EXPECT_EQ(edges.size(), 4u) << "each at its own armhole";
   }
 }
@@ -179,7 +184,8 @@ TEST(RimSeams, LeggingsCloseOnThemselvesAndMeetAtBothCrotchCurves) {
   const std::vector<Vec2> leg = {{-12, 0}, {12, 0},   {30, 70},  {22, 76},
                                  {20, 95}, {-20, 98}, {-21, 78}, {-33, 70}};
   std::vector<Vec2> mirrored;
-  for (auto q = leg.rbegin(); q != leg.rend(); ++q) mirrored.push_back({-q->x(), q->y()});
+  for (auto q = leg.rbegin(); q != leg.rend(); ++q)
+    mirrored.push_back({-q->x(), q->y()});
   const Pattern p =
       own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
           panel_text("legging 1", leg) + ", " + panel_text("legging 2", mirrored) + "]}");

@@ -54,7 +54,7 @@ TEST(Export, DxfKeepsWhatASeamIsAndWhetherItIsOpen) {
     EXPECT_EQ(named(s.name).kind, s.kind) << s.name;
     EXPECT_EQ(named(s.name).ease, s.ease) << s.name;
   }
-  const Panel& front = back.panels[static_cast<std::size_t>(back.find_panel("front"))];
+  const Panel& front = back.panels[back.find_panel("front")];
   ASSERT_EQ(front.notches.size(), 2u);
   EXPECT_EQ(std::count_if(front.notches.begin(), front.notches.end(),
                           [](const Notch& n) { return n.kind == "layer 81"; }),

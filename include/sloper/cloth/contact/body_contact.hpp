@@ -61,7 +61,8 @@ public:
   }
   bool is_search() const override { return true; }
   void prefetch_contacts(const std::vector<Vec3>& x, double h) override {
-    if (m_n_crossing == 0) begin_step(x, h); // what crosses is pushed harder with every search
+    if (m_n_crossing == 0)
+      begin_step(x, h); // what crosses is pushed harder with every search
   }
   bool crosses() const override { return m_n_crossing > 0; }
   void add(StepContext& c) override;

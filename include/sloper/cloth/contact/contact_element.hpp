@@ -23,7 +23,8 @@ struct ContactElement {
   /// particle k.
   Vec3 pull(const std::vector<Vec3>& x) const {
     Vec3 s = Vec3::Zero();
-    for (int k = 0; k < n; ++k) s += weight[k] * x[particle[k]];
+    for (int k = 0; k < n; ++k)
+      s += weight[k] * x[particle[k]];
     return tangent_stiffness * s + (normal_stiffness - tangent_stiffness) * normal.dot(s) * normal;
   }
   /// 3x3 stiffness of the weighted point, N/m.

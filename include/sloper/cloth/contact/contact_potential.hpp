@@ -32,12 +32,14 @@ inline constexpr double LEAST_DISTANCE = 1e-4;
 /// @param k  N/m
 inline ContactResponse evaluate_contact_potential(double d, double reach, double k) {
   ContactResponse p;
-  if (d >= reach) return p;
+  if (d >= reach)
+    return p;
   const double depth = reach - d, begins = BARRIER_BEGINS * reach;
   p.energy = k * depth * depth * depth / (6 * reach);
   p.force = 0.5 * k * depth * depth / reach;
   p.stiffness = k * depth / reach;
-  if (d >= begins) return p;
+  if (d >= begins)
+    return p;
   const double kb = BARRIER_STIFFNESS * k, e = std::max(d, LEAST_DISTANCE * reach);
   p.energy += 0.5 * kb *
               (begins * begins * std::log(begins / e) - 2 * begins * (begins - e) +

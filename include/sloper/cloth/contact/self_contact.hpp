@@ -46,7 +46,8 @@ public:
   void update_contacts(const std::vector<Vec3>& x, double h) override;
   bool is_search() const override { return true; }
   void prefetch_contacts(const std::vector<Vec3>& x, double h) override {
-    if (m_crossings.empty()) begin_step(x, h);
+    if (m_crossings.empty())
+      begin_step(x, h);
   }
   bool crosses() const override { return !m_crossings.empty(); }
   void add(StepContext& c) override;
@@ -69,7 +70,8 @@ public:
   /// All particles moved by this common displacement, m: what the last search found still
   /// holds.
   void moved_by(const Vec3& common) {
-    for (Vec3& p : m_searched_at) p += common;
+    for (Vec3& p : m_searched_at)
+      p += common;
   }
   /// Positions were changed from outside: search before the next step.
   void refresh() { m_stale = m_look_for_crossings = true; }

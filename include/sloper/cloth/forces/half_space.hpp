@@ -23,7 +23,7 @@ public:
 
 private:
   double beyond(int particle, const std::vector<Vec3>& x) const {
-    return m_normal.dot(m_point - x[static_cast<std::size_t>(particle)]);
+    return m_normal.dot(m_point - x[particle]);
   }
   std::vector<int> m_particles;
   Vec3 m_point, m_normal;

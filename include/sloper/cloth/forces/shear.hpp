@@ -42,8 +42,10 @@ public:
   const char* name() const override { return "shear"; }
   bool set_rest(const ClothMesh& mesh) override {
     std::vector<ShearTriangle> fresh = make_shear(mesh);
-    if (fresh.size() != m_shear.size()) return false;
-    for (std::size_t k = 0; k < fresh.size(); ++k) fresh[k].slots = m_shear[k].slots;
+    if (fresh.size() != m_shear.size())
+      return false;
+    for (std::size_t k = 0; k < fresh.size(); ++k)
+      fresh[k].slots = m_shear[k].slots;
     m_shear = std::move(fresh);
     return true;
   }

@@ -39,8 +39,10 @@ void find_slots(std::vector<TriangleMap>& maps, const BlockMatrix& matrix);
 
 /// Adds block (k, l) of a triangle, l = (k + 1) % 3, to the half of the matrix that is stored.
 inline void add_side(const TriangleMap& map, int k, const Mat3& block, BlockMatrix& stiffness) {
-  if (map.particle[k] < map.particle[(k + 1) % 3]) stiffness.add_off_diagonal(map.slots[k], block);
-  else stiffness.add_off_diagonal(map.slots[k], block.transpose());
+  if (map.particle[k] < map.particle[(k + 1) % 3])
+    stiffness.add_off_diagonal(map.slots[k], block);
+  else
+    stiffness.add_off_diagonal(map.slots[k], block.transpose());
 }
 
 } // namespace sloper::cloth

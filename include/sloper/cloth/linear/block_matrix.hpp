@@ -46,8 +46,10 @@ public:
   /// Adds value times the identity to any block.
   void add_isotropic(int slot, double value) {
     const std::size_t at = static_cast<std::size_t>(slot);
-    if (at < m_value.size()) m_value[at].diagonal().array() += value;
-    else m_isotropic_value[at - m_value.size()] += value;
+    if (at < m_value.size())
+      m_value[at].diagonal().array() += value;
+    else
+      m_isotropic_value[at - m_value.size()] += value;
   }
   /// Block (i, i).
   const Mat3& diagonal(int i) const { return m_diagonal[i]; }

@@ -112,25 +112,30 @@ double conjugate_gradient_loop(Space&& space, double r_norm2, double target2, do
                                int max_iterations, double radius, CgResult& result) {
   const bool bounded = radius < std::numeric_limits<double>::infinity();
   result.indefinite = result.bounded = result.near = false;
-  if (!(result.iterations < max_iterations && r_norm2 > target2)) return r_norm2;
+  if (!(result.iterations < max_iterations && r_norm2 > target2))
+    return r_norm2;
   double rz = space.precondition();
   const double rz_end = energy * energy * rz;
   space.turn(0);
   for (;;) {
     const double curvature = space.multiply();
     result.indefinite = !(curvature > 0);
-    if (result.indefinite && !bounded) break;
+    if (result.indefinite && !bounded)
+      break;
     ++result.iterations;
     ++result.since_renewal;
     const double room = bounded ? (radius - space.longest_x()) / space.longest_p() : 0;
     result.bounded = bounded && !(curvature * room > rz);
     r_norm2 = space.advance(result.bounded ? room : rz / curvature);
-    if (result.bounded || r_norm2 <= target2 || result.iterations >= max_iterations) break;
+    if (result.bounded || r_norm2 <= target2 || result.iterations >= max_iterations)
+      break;
     const bool renewed = space.renew(result.since_renewal);
-    if (renewed) result.since_renewal = 0;
+    if (renewed)
+      result.since_renewal = 0;
     const double rz_next = space.precondition();
     result.near = rz_next > 0 && rz_next <= rz_end;
-    if (result.near || !(rz_next > 0)) break; // the latter where rounding has the last word
+    if (result.near || !(rz_next > 0))
+      break;                                // the latter where rounding has the last word
     space.turn(renewed ? 0 : rz_next / rz); // with another preconditioner the directions start anew
     rz = rz_next;
   }

@@ -7,8 +7,10 @@ namespace sloper::garment {
 namespace {
 
 EffectChoice choose_orthotropic_bending(const EffectFacts& facts) {
-  if (!facts.has_bending) return {false, "no fabric has bending rigidity"};
-  if (!facts.is_directional) return {false, "all fabrics bend alike in all directions"};
+  if (!facts.has_bending)
+    return {false, "no fabric has bending rigidity"};
+  if (!facts.is_directional)
+    return {false, "all fabrics bend alike in all directions"};
   return {true, "a fabric bends by direction"};
 }
 

@@ -21,7 +21,8 @@ bool InflatePhase::is_needed(const SimContext& context) const {
 
 void InflatePhase::begin(SimContext& context, bool resumed) {
   m_skin = context.body.collider()->mesh().positions;
-  if (!resumed) m_state = {.max_skin_lag_m = MAX_SKIN_LAG_M, .skin = {}};
+  if (!resumed)
+    m_state = {.max_skin_lag_m = MAX_SKIN_LAG_M, .skin = {}};
   context.stepper.advance({.h = STEP_S}); // contact knows how far skin may move from its last step
 }
 
@@ -48,10 +49,13 @@ void InflatePhase::move_skin(SimContext& context) {
 }
 
 PhaseStatus InflatePhase::step(SimContext& context) {
-  if (is_done(context)) return PhaseStatus::DONE;
+  if (is_done(context))
+    return PhaseStatus::DONE;
   const double scale = context.body.state().scale;
-  if (scale < 1) context.body.set_scale(std::min(1.0, scale + SKIN_MOVE_M / context.body.reach()));
-  else m_state.max_skin_lag_m = std::max(0.0, m_state.max_skin_lag_m - MAX_SKIN_LAG_M / LAG_STEPS);
+  if (scale < 1)
+    context.body.set_scale(std::min(1.0, scale + SKIN_MOVE_M / context.body.reach()));
+  else
+    m_state.max_skin_lag_m = std::max(0.0, m_state.max_skin_lag_m - MAX_SKIN_LAG_M / LAG_STEPS);
   move_skin(context);
   cloth::BodyContactEffect& contact = *context.cloth.body_contact();
   contact.move_body(m_skin, context.cloth.x());

@@ -28,10 +28,13 @@ void RestClock::note(const std::vector<Vec3>& x, double frame_s) {
   for (std::size_t i = 0; same && i < x.size(); ++i)
     same = (x[i] - m_from[i]).norm() <= REST_DISTANCE;
   m_s = same ? m_s + frame_s : 0;
-  if (!same) m_from = x;
+  if (!same)
+    m_from = x;
 }
 
-bool RestClock::is_at_rest() const { return !m_from.empty() && m_s >= REST_S; }
+bool RestClock::is_at_rest() const {
+  return !m_from.empty() && m_s >= REST_S;
+}
 
 bool MovePhase::is_needed(const SimContext& context) const {
   return m_moves && !m_state.over && context.cloth.body_contact();
@@ -60,7 +63,8 @@ void MovePhase::make_motion(SimContext& context) {
 void MovePhase::begin(SimContext& context, bool resumed) {
   m_began = context.telemetry.elapsed() - m_state.elapsed_s;
   context.telemetry.report.converged = false;
-  if (!resumed) context.cloth.solver().stop();
+  if (!resumed)
+    context.cloth.solver().stop();
   make_motion(context);
   m_skin =
       m_state.frame > 0 ? m_moves->skin(m_state.frame - 1) : context.body.body()->skin.positions;
@@ -84,14 +88,16 @@ MovePhase::Substeps MovePhase::substeps(const SimContext& context) const {
 /// Whether sleeping cloth must take part in a frame: skin near it moves, or wind blows.
 bool MovePhase::wakes(const SimContext& context, const std::vector<Vec3>& from,
                       const std::vector<Vec3>& to) const {
-  if (context.cloth.is_active("wind")) return true;
+  if (context.cloth.is_active("wind"))
+    return true;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& p : context.cloth.x()) {
     low = low.cwiseMin(p - Vec3::Constant(WAKE_DISTANCE));
     high = high.cwiseMax(p + Vec3::Constant(WAKE_DISTANCE));
   }
   for (std::size_t v = 0; v < from.size(); ++v) {
-    if (from[v] == to[v]) continue;
+    if (from[v] == to[v])
+      continue;
     if ((from[v].cwiseMin(to[v]).array() <= high.array()).all() &&
         (from[v].cwiseMax(to[v]).array() >= low.array()).all())
       return true;
@@ -145,7 +151,8 @@ void MovePhase::count(MotionFrame& frame) {
 }
 
 PhaseStatus MovePhase::step(SimContext& context) {
-  if (m_state.frame >= m_moves->n_frames || context.stepper.stopped()) return PhaseStatus::DONE;
+  if (m_state.frame >= m_moves->n_frames || context.stepper.stopped())
+    return PhaseStatus::DONE;
   if (context.checkpoints->offer(m_state.parts, m_state.noted)) {
     make_motion(context);
     m_rest.reset(); // a run that goes on from here knows nothing of it
@@ -156,7 +163,8 @@ PhaseStatus MovePhase::step(SimContext& context) {
   m_skin = m_moves->skin(m_state.frame);
   MotionFrame frame = m_last;
   frame.speed_m_s = 0;
-  if (wakes(context, from, m_skin)) m_rest.reset();
+  if (wakes(context, from, m_skin))
+    m_rest.reset();
   const bool asleep = m_rest.is_at_rest();
   if (asleep) {
     ++m_state.asleep_frames;
@@ -165,10 +173,12 @@ PhaseStatus MovePhase::step(SimContext& context) {
   } else {
     move_skin(context, from, frame);
     m_rest.note(context.cloth.x(), m_moves->frame_s);
-    if (m_rest.is_at_rest()) context.cloth.solver().stop();
+    if (m_rest.is_at_rest())
+      context.cloth.solver().stop();
   }
   count(frame);
-  if (!asleep) audit(context, frame);
+  if (!asleep)
+    audit(context, frame);
   m_last = frame;
   const std::size_t found[3] = {frame.faces_through, frame.vertices_inside,
                                 frame.self_intersections};
@@ -176,7 +186,8 @@ PhaseStatus MovePhase::step(SimContext& context) {
     m_state.bad_frames[i] += found[i] > 0;
     m_state.most[i] = std::max(m_state.most[i], static_cast<int>(found[i]));
   }
-  if (m_on_frame) m_on_frame(frame, context.cloth.garment());
+  if (m_on_frame)
+    m_on_frame(frame, context.cloth.garment());
   context.stepper.check_time();
   return PhaseStatus::CONTINUE;
 }

@@ -58,13 +58,15 @@ bool SettlePhase::is_loaded(const SimContext& context) const {
 }
 
 void SettlePhase::begin(SimContext& context, bool resumed) {
-  if (resumed) return;
+  if (resumed)
+    return;
   m_state.step = 0;
   m_state.h = context.settings.time_step_s;
   m_state.release_height_m.reset();
   m_state.probe_position.clear();
   m_state.start_height.clear();
-  for (const Vec3& p : context.cloth.x()) m_state.start_height.push_back(p.y());
+  for (const Vec3& p : context.cloth.x())
+    m_state.start_height.push_back(p.y());
 }
 
 void SettlePhase::forget_progress() {
@@ -78,8 +80,10 @@ void SettlePhase::forget_progress() {
 bool SettlePhase::release_blocked(SimContext& context) {
   const std::vector<Vec3>& x = context.cloth.x();
   double height = 0;
-  for (const Vec3& p : x) height += p.y() / static_cast<double>(x.size());
-  if (m_state.release_height_m && std::abs(height - *m_state.release_height_m) < SUNK) return false;
+  for (const Vec3& p : x)
+    height += p.y() / static_cast<double>(x.size());
+  if (m_state.release_height_m && std::abs(height - *m_state.release_height_m) < SUNK)
+    return false;
   m_state.release_height_m = height;
   return context.cloth.solver().release_blocked_particles();
 }
@@ -90,14 +94,18 @@ bool SettlePhase::release_blocked(SimContext& context) {
 void SettlePhase::look_for_drift(SimContext& context) {
   const int k = m_state.step;
   const int unloaded = unloaded_steps(context);
-  if (k < unloaded || m_state.dynamic_steps > 0) return;
+  if (k < unloaded || m_state.dynamic_steps > 0)
+    return;
   const std::vector<Vec3>& x = context.cloth.x();
   if (k == unloaded)
     m_state.probe_step = context.carried ? k + FIRST_PROBE_CARRIED - PROBE_EVERY : k;
-  if (k == m_state.probe_step + PROBE_EVERY - PROBE_STEPS) m_state.probe_position = x;
-  if (k < m_state.probe_step + PROBE_EVERY) return;
+  if (k == m_state.probe_step + PROBE_EVERY - PROBE_STEPS)
+    m_state.probe_position = x;
+  if (k < m_state.probe_step + PROBE_EVERY)
+    return;
   m_state.probe_step = k;
-  if (m_state.probe_position.empty()) return; // a checkpoint of an older version
+  if (m_state.probe_position.empty())
+    return; // a checkpoint of an older version
   double squares = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     squares += (x[i] - m_state.probe_position[i]).squaredNorm();
@@ -105,7 +113,8 @@ void SettlePhase::look_for_drift(SimContext& context) {
   context.telemetry.reporter.info("settle step " + std::to_string(k) + ": went " +
                                   millimetres_text(drift) + " in " + std::to_string(PROBE_STEPS) +
                                   " steps");
-  if (drift < DRIFTS) return;
+  if (drift < DRIFTS)
+    return;
   context.cloth.solver().release_blocked_particles();
   context.cloth.solver().stop();
   m_state.dynamic_steps = DYNAMIC_STEPS;
@@ -117,7 +126,8 @@ void SettlePhase::end_dynamic_step(SimContext& context) {
   const StepController& stepper = context.stepper;
   const bool arrived = DYNAMIC_STEPS - m_state.dynamic_steps >= LEAST_DYNAMIC_STEPS &&
                        stepper.last().largest_move_m < ARRIVED_SPEED * stepper.last_h();
-  if (!arrived && m_state.dynamic_steps > 0) return;
+  if (!arrived && m_state.dynamic_steps > 0)
+    return;
   context.cloth.solver().stop();
   m_state.dynamic_steps = 0;
   m_state.probe_step = m_state.step;
@@ -126,7 +136,8 @@ void SettlePhase::end_dynamic_step(SimContext& context) {
 
 void SettlePhase::prepare_step(SimContext& context) {
   const int unloaded = unloaded_steps(context);
-  if (m_state.step < unloaded) context.supports.add_inflation_pressure();
+  if (m_state.step < unloaded)
+    context.supports.add_inflation_pressure();
   if (m_state.step == unloaded) {
     context.supports.remove_inflation_pressure();
     context.supports.close_tangles();
@@ -141,11 +152,13 @@ void SettlePhase::adapt_step(SimContext& context) {
   const cloth::StepResult& last = context.stepper.last();
   const double least = context.settings.time_step_s;
   double& h = m_state.h;
-  if (last.halvings > 0) h = std::max(h * SHRINK_HALVED, least);
+  if (last.halvings > 0)
+    h = std::max(h * SHRINK_HALVED, least);
   else if (last.largest_move_m < LITTLE_MOVED)
     h = std::min(h * (last.residual_force_ratio > NEAR_RESIDUAL ? GROWTH : GROWTH_NEAR_REST),
                  LARGEST_STEP_S);
-  else if (last.largest_move_m > MUCH_MOVED) h = std::max(h * SHRINK_MUCH_MOVED, least);
+  else if (last.largest_move_m > MUCH_MOVED)
+    h = std::max(h * SHRINK_MUCH_MOVED, least);
 }
 
 bool SettlePhase::has_stalled(SimContext& context) {
@@ -162,7 +175,8 @@ bool SettlePhase::has_stalled(SimContext& context) {
 /// Whether it would be a pity to stop: cloth that is all but at rest, or that came nearer to it
 /// lately.
 bool SettlePhase::nears_rest(SimContext& context) const {
-  if (context.only_clear || m_state.step <= unloaded_steps(context)) return false;
+  if (context.only_clear || m_state.step <= unloaded_steps(context))
+    return false;
   const StepController& stepper = context.stepper;
   const bool nearly =
       stepper.speed() < NEARLY * context.settings.settle_speed_m_s &&
@@ -173,15 +187,18 @@ bool SettlePhase::nears_rest(SimContext& context) const {
 void SettlePhase::judge_fit(SimContext& context) {
   const Misfit misfit = context.fit.judge(m_state.start_height, context.stepper.last(),
                                           context.telemetry.report.steps);
-  if (misfit == Misfit::NONE) return;
+  if (misfit == Misfit::NONE)
+    return;
   context.telemetry.report.misfit = misfit;
   context.stepper.stop(StopReason::MISFIT);
 }
 
 PhaseStatus SettlePhase::step(SimContext& context) {
-  if (context.stepper.stopped()) return PhaseStatus::STOP;
+  if (context.stepper.stopped())
+    return PhaseStatus::STOP;
   const PhaseStatus status = iterate(context);
-  if (status == PhaseStatus::CONTINUE) ++m_state.step;
+  if (status == PhaseStatus::CONTINUE)
+    ++m_state.step;
   return status;
 }
 
@@ -200,7 +217,8 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
     request.inertia = DYNAMIC_INERTIA;
   }
   context.stepper.set_patient(nears_rest(context));
-  if (!context.stepper.advance(request)) return PhaseStatus::STOP;
+  if (!context.stepper.advance(request))
+    return PhaseStatus::STOP;
   const cloth::StepResult& last = context.stepper.last();
   const double speed = last.largest_move_m / m_state.h, residual = last.residual_force_ratio;
   if (k % 20 == 0)
@@ -210,8 +228,10 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
         " of the weight, at most " + std::to_string(last.residual_force_ratio_max) +
         context.cloth.crossing_text());
   context.telemetry.reporter.progress("settle", -1);
-  if (dynamic) end_dynamic_step(context);
-  else adapt_step(context);
+  if (dynamic)
+    end_dynamic_step(context);
+  else
+    adapt_step(context);
   if (has_stalled(context)) {
     context.stepper.stop(StopReason::STALLED);
     return PhaseStatus::STOP;
@@ -235,7 +255,8 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
   if (looks && self_contact && !self_contact->crossings().empty() &&
       context.resolver.state().untanglings < MAX_UNTANGLINGS / 2)
     context.resolver.untangle_in_flight();
-  if (k > unloaded && k % JUDGE_EVERY == 0) judge_fit(context);
+  if (k > unloaded && k % JUDGE_EVERY == 0)
+    judge_fit(context);
   const bool still = context.only_clear || (speed < context.settings.settle_speed_m_s &&
                                             residual < context.settings.settle_force_ratio);
   m_state.calm = still && k >= unloaded ? m_state.calm + 1 : 0;
@@ -310,13 +331,15 @@ void SettlePhase::let_arms_hang(SimContext& context) {
 
 void SettlePhase::drop_coarse_proxy(SimContext& context) {
   cloth::BodyContactEffect::Memory contact;
-  if (context.cloth.body_contact()) contact = context.cloth.body_contact()->memory();
+  if (context.cloth.body_contact())
+    contact = context.cloth.body_contact()->memory();
   context.body.drop_coarse_proxy();
   rebuild(context, *this, contact, false);
 }
 
 void SettlePhase::end(SimContext& context) {
-  if (context.body.state().arms_aside) let_arms_hang(context); // stopped before
+  if (context.body.state().arms_aside)
+    let_arms_hang(context); // stopped before
 }
 
 } // namespace sloper::garment

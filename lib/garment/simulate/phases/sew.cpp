@@ -31,12 +31,14 @@ bool SewPhase::is_needed(const SimContext& context) const {
 }
 
 void SewPhase::begin(SimContext& context, bool resumed) {
-  if (resumed) return;
+  if (resumed)
+    return;
   context.build_cloth(true);
   context.resolver.log_crossings("start");
   const cloth::ClothMesh& mesh = context.cloth.mesh();
   double weight = 0;
-  for (double m : mesh.mass) weight += m * units::GRAVITY / mesh.n_particles;
+  for (double m : mesh.mass)
+    weight += m * units::GRAVITY / mesh.n_particles;
   m_state.step = 0;
   m_state.pull = SEW_PULL * weight;
 }
@@ -47,8 +49,10 @@ bool SewPhase::adapt_pull() {
   const std::vector<double>& gaps = m_state.gaps;
   const bool slow = k >= m_state.pull_changed + SEW_LOOK_BACK &&
                     gaps[k] > (1 - SEW_SLOW) * gaps[k - SEW_LOOK_BACK];
-  if (!slow) return true;
-  if (m_state.pull >= SEW_STRONGEST) return k < m_state.pull_changed + SEW_LAST_CHANCE;
+  if (!slow)
+    return true;
+  if (m_state.pull >= SEW_STRONGEST)
+    return k < m_state.pull_changed + SEW_LAST_CHANCE;
   m_state.pull = std::min(SEW_GROWTH * m_state.pull, SEW_STRONGEST);
   m_state.pull_changed = k;
   return true;

@@ -53,8 +53,10 @@ public:
 inline void rebuild(SimContext& context, const Phase& phase,
                     const cloth::BodyContactEffect::Memory& contact, bool keep_velocity) {
   context.build_cloth(phase.has_open_seams(), keep_velocity);
-  if (phase.is_loaded(context)) context.cloth.add_load();
-  if (context.cloth.body_contact()) context.cloth.body_contact()->recall(contact);
+  if (phase.is_loaded(context))
+    context.cloth.add_load();
+  if (context.cloth.body_contact())
+    context.cloth.body_contact()->recall(contact);
 }
 
 } // namespace sloper::garment
