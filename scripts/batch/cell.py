@@ -399,7 +399,8 @@ def make_slice(plan, kind, first, last):
             ):
                 shutil.rmtree(left, ignore_errors=True)
         print(
-            f"retarget-batch: {kind} {first} to {last - 1}: {error}; they are made when the batch is started again",
+            f"retarget-batch: {kind} {first} to {last - 1}: {error}; they are made when the batch "
+            f"is started again",
             flush=True,
         )
         return CANNOT_WRITE

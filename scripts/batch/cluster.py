@@ -34,7 +34,8 @@ def limits():
     array = number("MaxArraySize", MAX_ARRAY_SIZE)
     if array == 0:
         raise planning.Mistake(
-            "the cluster's MaxArraySize is 0: it takes no job arrays; use --engine make inside one job",
+            "the cluster's MaxArraySize is 0: it takes no job arrays; use --engine make inside "
+            "one job",
             4,
         )
     array = min(array, number("max_array_tasks", array))
@@ -92,7 +93,8 @@ def submit(plan, missing, options, script, name):
     chunk = max(options.chunk, -(-sum(last - first for first, last in missing) // limit["jobs"]))
     if chunk > options.chunk:
         print(
-            f"retarget-batch: {chunk} cells in a task instead of {options.chunk}, since the cluster holds {2 * limit['jobs']} jobs (MaxJobCount)",
+            f"retarget-batch: {chunk} cells in a task instead of {options.chunk}, since the "
+            f"cluster holds {2 * limit['jobs']} jobs (MaxJobCount)",
             file=sys.stderr,
         )
     tasks = os.path.join(folder, f"{name}.tasks")
@@ -107,7 +109,8 @@ def submit(plan, missing, options, script, name):
     array = os.path.join(folder, f"{name}.sh")
     with open(array, "w") as file:
         file.write(
-            f"#!/bin/bash\nsed -n \"$(($1 + SLURM_ARRAY_TASK_ID + 1))p\" {shlex.quote(tasks)} | tr ' ' '\\n' | xargs -r -n 1 -P \"${{SLURM_CPUS_PER_TASK:-1}}\" {one}\n"
+            f'#!/bin/bash\nsed -n "$(($1 + SLURM_ARRAY_TASK_ID + 1))p" {shlex.quote(tasks)} | tr '
+            f"' ' '\\n' | xargs -r -n 1 -P \"${{SLURM_CPUS_PER_TASK:-1}}\" {one}\n"
         )
     common = ["--parsable", f"--chdir={plan.out}", *options.slurm_option]
     jobs = []

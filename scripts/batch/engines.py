@@ -23,7 +23,9 @@ def write_make_file(plan, missing, script):
     temporary = f"{path}.{os.getpid()}.tmp"
     with open(temporary, "w") as file:
         file.write(
-            "# Made by retarget-batch: make -k -j N -C THIS-FOLDER -f batch.mk\n# bodies-FIRST-LAST and cells-FIRST-LAST make what is missing of these.\n.SUFFIXES:\n.PHONY: all todo\nall:\n"
+            "# Made by retarget-batch: make -k -j N -C THIS-FOLDER -f batch.mk\n# "
+            "bodies-FIRST-LAST and cells-FIRST-LAST make what is missing of "
+            "these.\n.SUFFIXES:\n.PHONY: all todo\nall:\n"
         )
         for first, last in slices["bodies"]:
             file.write(f"bodies-{first}-{last}:\n\t{one} bodies {first}-{last}\n")
@@ -35,7 +37,9 @@ def write_make_file(plan, missing, script):
             if i < len(missing) and missing[i][0] < last:
                 todo.append(name)
             file.write(
-                f"{name}: | bodies-{slices['bodies'][body][0]}-{slices['bodies'][body][1]}\n\t{one} cells {first}-{last}\n"
+                f"{name}: | "
+                f"bodies-{slices['bodies'][body][0]}-{slices['bodies'][body][1]}\n\t{one} cells "
+                f"{first}-{last}\n"
             )
         file.write(f"all: {' '.join(names)}\ntodo: {' '.join(todo)}\n")
     os.replace(temporary, path)

@@ -419,7 +419,8 @@ class LargePage:
         for name, of in sorted(self.of.items()):
             for girth, values in sorted(of["ease"].items()):
                 text += (
-                    f"<tr><td>{html.escape(name)}<td>{html.escape(girth.replace('_', ' '))}<td class=n>{len(values)}"
+                    f"<tr><td>{html.escape(name)}<td>{html.escape(girth.replace('_', ' '))}<td "
+                    f"class=n>{len(values)}"
                     + "".join(
                         f'<td class=n style="background:{heat_colour(float(v))}">{v}'
                         for v in quantiles(values, "{:.0f}")

@@ -156,7 +156,8 @@ def find_garments(place, worn_by=None):
         raise Mistake(f"{meshes[0]}: a mesh does not say who wears it; say --from BODY")
     if not garments:
         raise Mistake(
-            f"{place}: no garment document in it; drape one first, or say --from BODY where they are meshes"
+            f"{place}: no garment document in it; drape one first, or say --from BODY where they "
+            f"are meshes"
         )
     return garments
 
@@ -219,7 +220,8 @@ def refuse_twice(kind, paths):
         other = seen.setdefault(stem(path), path)
         if other is not path:
             raise Mistake(
-                f"two {kind} are called {stem(path)}: {other} and {path}; rename one, since cells are named after them"
+                f"two {kind} are called {stem(path)}: {other} and {path}; rename one, since cells "
+                f"are named after them"
             )
 
 
