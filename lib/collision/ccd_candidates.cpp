@@ -10,6 +10,8 @@ namespace {
 
 /// Elements whose boxes stay this far apart do not count, m: more than rounding to float costs.
 constexpr float CLEAR = 1e-4f;
+/// Of a squared displacement, to stay below it whatever rounding to float does.
+constexpr double FLOAT_SHARE = 0.99;
 
 using Pairs = std::vector<std::array<int, 2>>;
 
@@ -51,25 +53,30 @@ void mark_nodes(const TriangleTree& tree, std::vector<std::uint8_t>& lanes, cons
 }
 
 /// Calls visit(slot) for every slot >= first that could meet the element if all moved 1 / SHARE
-/// times as far.
+/// times as far, and then against the element by more than `apart`.
 /// @param lanes  null, or those children of every node that are looked at
 template<class Visit>
 void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const Moving& e, int first,
-                   const std::uint8_t* lanes, Visit&& visit) {
+                   const std::uint8_t* lanes, double apart, Visit&& visit) {
   const Float4 zero = Float4::all(0),
-               stretch = Float4::all(static_cast<float>(1 / CcdCandidates::SHARE));
+               stretch = Float4::all(static_cast<float>(1 / CcdCandidates::SHARE)),
+               apart2 = Float4::all(static_cast<float>(FLOAT_SHARE * apart * apart));
   int stack[128], top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const int index = stack[--top];
     const TriangleTree::Node &node = tree.nodes()[index], &moves = motion.nodes()[index];
     int mask = lanes ? lanes[index] : 15;
+    Float4 farthest2 = zero;
     for (int a = 0; a < 3 && mask; ++a) { // the node's displacement relative to the element
       const Float4 back = min(zero, Float4::load(moves.low[a]) - e.fast[a]) * stretch,
                    on = max(zero, Float4::load(moves.high[a]) - e.slow[a]) * stretch;
       mask &= both_less_equal(Float4::load(node.low[a]) + back, e.high[a], e.low[a],
                               Float4::load(node.high[a]) + on);
+      const Float4 most = max(on, zero - back);
+      farthest2 = farthest2 + most * most;
     }
+    mask &= ~less_equal(farthest2, apart2);
     for (int i = 0; i < 4; ++i) {
       if (!(mask & (1 << i)) || node.child[i] == TriangleTree::EMPTY || node.slot_end[i] <= first)
         continue;
@@ -148,7 +155,7 @@ void CcdCandidates::choose(const std::vector<Vec3>& dx, const std::vector<char>&
 }
 
 void CcdCandidates::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
-                         const std::vector<char>& may_meet, bool again) {
+                         const std::vector<char>& may_meet, bool again, double apart) {
   m_vertex_face.clear();
   m_edge_edge.clear();
   if (m_triangles.empty())
@@ -161,7 +168,7 @@ void CcdCandidates::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
       return;
     const std::array<int, 1> own{v};
     visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0,
-                  m_chosen[v] ? nullptr : m_chosen_faces.data(), [&](int slot) {
+                  m_chosen[v] ? nullptr : m_chosen_faces.data(), apart, [&](int slot) {
                     const int f = m_faces.triangle_of_slot(slot);
                     const Triangle& t = m_triangles[f];
                     if (v == t[0] || v == t[1] || v == t[2])
@@ -179,7 +186,7 @@ void CcdCandidates::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
       return;
     visit_meeting(
         m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1,
-        chosen ? nullptr : m_chosen_edges.data(), [&](int other) {
+        chosen ? nullptr : m_chosen_edges.data(), apart, [&](int other) {
           const int f = m_edges.triangle_of_slot(other);
           const std::array<int, 2>& b = m_topology.edges[f];
           if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1])

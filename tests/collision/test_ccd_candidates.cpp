@@ -163,6 +163,36 @@ TEST(CcdCandidates, FindsThePairsOfWhatIsMarked) {
   expect_those_of_marked(some, every, s, topology, marked);
 }
 
+TEST(CcdCandidates, FindsThePairsThatAreFartherApartThanThoseKnown) {
+  const Sheets s = two_sheets(12);
+  const Topology topology = make_topology(s.x.size(), s.triangles);
+  const std::vector<Vec3> dx = random_motion(s, 13);
+  constexpr double KNOWN = 0.011; // m
+  CcdCandidates some(s.triangles, topology), every(s.triangles, topology);
+  some.find(s.x, dx, all(s), false, KNOWN);
+  every.find(s.x, dx, all(s), false);
+  const auto has = [](const auto& pairs, const std::array<int, 2>& pair) {
+    return std::binary_search(pairs.begin(), pairs.end(), pair);
+  };
+  std::size_t farther = 0;
+  for (const auto& [v, f] : every.vertex_face()) {
+    const Triangle& t = s.triangles[f];
+    if (point_triangle(s.x[v], s.x[t[0]], s.x[t[1]], s.x[t[2]]).squared_distance < KNOWN * KNOWN)
+      continue;
+    ++farther;
+    EXPECT_TRUE(has(some.vertex_face(), {v, f})) << v << " " << f;
+  }
+  EXPECT_GT(farther, 0U);
+  for (const auto& [e, f] : every.edge_edge()) {
+    const auto &a = topology.edges[e], &b = topology.edges[f];
+    if (edge_edge(s.x[a[0]], s.x[a[1]], s.x[b[0]], s.x[b[1]]).squared_distance >= KNOWN * KNOWN)
+      EXPECT_TRUE(has(some.edge_edge(), {e, f})) << e << " " << f;
+  }
+  EXPECT_LT(some.edge_edge().size(), every.edge_edge().size());
+  for (const std::array<int, 2>& pair : some.edge_edge())
+    EXPECT_TRUE(has(every.edge_edge(), pair)) << pair[0] << " " << pair[1];
+}
+
 TEST(CcdCandidates, TheSameForAnyNumberOfThreads) {
   const Sheets s = two_sheets(30);
   const Topology topology = make_topology(s.x.size(), s.triangles);

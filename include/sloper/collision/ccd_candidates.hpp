@@ -31,8 +31,10 @@ public:
   /// need not be found
   /// @param again  x is that of the last call: pairs need not be found of which no
   /// particle's displacement has changed since
+  /// @param apart  m: pairs nearer than this need not be found, so that neither need those that
+  /// move against each other by less than SHARE of it
   void find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
-            const std::vector<char>& may_meet, bool again);
+            const std::vector<char>& may_meet, bool again, double apart = 0);
 
   /// Candidates found: vertex, triangle; sorted.
   const std::vector<std::array<int, 2>>& vertex_face() const { return m_vertex_face; }

@@ -21,6 +21,8 @@ constexpr double HARDER = 1.3, HARDEST = 100;
 /// The line between a crossed pair is along its normal only within 60 degrees of the skin's:
 /// beyond, its sign would be noise.
 constexpr double CONE = 0.5;
+/// m; at less the line between the closest points of a pair has no direction.
+constexpr double TOUCHING = 1e-12;
 
 /// Of a crossed pair, d <= 0 below the skin: a spring of constant stiffness beyond the reach.
 ContactResponse push_out_of(double d, double reach, double k) {
@@ -263,16 +265,21 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair,
     away = d.point - b;
   }
   c.distance = away.norm();
-  c.valid = c.distance > 1e-12;
-  if (!pair.crossed) {
-    if (c.valid)
-      c.normal = away / c.distance;
+  c.valid = c.distance > TOUCHING;
+  if (!pair.crossed && c.valid) {
+    c.normal = away / c.distance;
     return c;
   }
   Vec3 skin_normal = Vec3::Zero();
   for (int k = 0; k < pair.n_body; ++k)
     skin_normal += c.body_weight[k] * m_body.vertex_normals()[pair.body[k]];
   skin_normal.normalize();
+  if (!pair.crossed) { // on the skin: outside is where its normal points, for all pairs alike
+    c.normal = skin_normal;
+    c.distance = 0;
+    c.valid = skin_normal.squaredNorm() > 0.5;
+    return c;
+  }
   const double height = away.dot(skin_normal);
   if (c.valid && std::abs(height) >= CONE * c.distance) {
     if (height < 0)

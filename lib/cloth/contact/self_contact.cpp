@@ -314,7 +314,9 @@ bool SelfContactEffect::add_separating_planes(const std::vector<Vec3>& x,
       limits.max_displacement[i] = std::min(limits.max_displacement[i], safe_move(i));
     return true;
   }
-  m_closing.find(x, dx, m_far, !m_closing_stale);
+  const double farthest = *std::max_element(m_moved.begin(), m_moved.end());
+  const double apart = std::max(0.0, m_radius - 2 * farthest); // all nearer pairs were found
+  m_closing.find(x, dx, m_far, !m_closing_stale, apart);
   m_closing_stale = false;
   ++far_searches;
   const bool faces = guard_closing(m_closing.vertex_face(), false, x, limits);
