@@ -45,7 +45,7 @@ std::vector<Finding> second_opinions(Body& body, const Corrections& corrections,
   for (const Place& place : PLACES) {
     const auto found = body.landmarks.find(place.landmark);
     if (found == body.landmarks.end()) continue;
-    const auto expected = corrections.expected(place.learned, features, place.side);
+    const auto expected = corrections.extrapolated(place.learned, features, place.side);
     if (!expected) continue;
     Landmark& landmark = found->second;
     const double off = landmark.p.y() - expected->height * s, deviations = off / (expected->sd * s);
