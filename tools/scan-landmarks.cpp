@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 using namespace sloper;
 
@@ -84,6 +85,54 @@ void tell_findings(cli::Tool& tool, const body::Body& body) {
     tool.reporter().warning(widest);
 }
 
+bool stands(const body::MeasuredScan& measured) {
+  return measured.doubts.empty() && measured.missing.empty();
+}
+
+/// The pose that the meshes of `o.scan` were bound in, where that is another than is shown and a
+/// person stands in it.
+std::optional<body::MeasuredScan> measure_bound(cli::Tool& tool, const Options& o,
+                                                const io::Scan& shown,
+                                                const body::ScanOptions& options) {
+  const io::Scan bound = io::read_scan(o.scan, io::SkinPose::BIND);
+  if (bound.mesh.positions == shown.mesh.positions)
+    return std::nullopt;
+  try {
+    body::MeasuredScan measured =
+        body::measure_scan(bound.mesh, o.scan, bound.sha256, options, tool.reporter());
+    if (!stands(measured))
+      return std::nullopt;
+    measured.body.scan.findings.push_back(
+        {"scan.bind-pose"_id, "warning",
+         "as its joints hold it, the figure does not stand: it is measured in the pose in which it "
+         "was bound to them",
+         "scan"});
+    return measured;
+  } catch (const Error& e) {
+    tool.reporter().info(std::string("the bind pose is no standing person either: ") + e.what());
+    return std::nullopt;
+  }
+}
+
+/// As the scan is shown, or, of a figure that its joints hold in another pose, as it was bound.
+body::MeasuredScan measure(cli::Tool& tool, const Options& o, const io::Scan& scan,
+                           const body::ScanOptions& options) {
+  try {
+    body::MeasuredScan measured =
+        body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
+    if (stands(measured))
+      return measured;
+    auto bound = measure_bound(tool, o, scan, options);
+    return bound ? std::move(*bound) : std::move(measured);
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::INPUT)
+      throw;
+    if (auto bound = measure_bound(tool, o, scan, options))
+      return std::move(*bound);
+    throw;
+  }
+}
+
 int run(cli::Tool& tool, const Options& o) {
   body::ScanOptions options;
   options.unit = o.unit;
@@ -106,8 +155,7 @@ int run(cli::Tool& tool, const Options& o) {
   std::snprintf(took, sizeof took, "reading: %.3f s",
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   tool.reporter().info(took);
-  body::MeasuredScan measured =
-      body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
+  body::MeasuredScan measured = measure(tool, o, scan, options);
   const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
   const std::string garmentcode =
       o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);

@@ -5,6 +5,7 @@
 #include <body/ingest/upright.hpp>
 #include <body/ingest/vertical.hpp>
 #include <body/landmarks/crotch.hpp>
+#include <body/landmarks/dependents.hpp>
 #include <body/landmarks/gate.hpp>
 #include <body/landmarks/second_opinion.hpp>
 #include <body/part_labels.hpp>
@@ -439,6 +440,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     phases.done("spread");
   else
     result.trail.push_back("spread: not measured, the usual one of each rule is given");
+  doubt_dependents(body, options.corrections->strangeness(result.features));
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part =
       label_scan(positions, labelled, skin.of_scan, body.skin, skin_part, 0.03 * s);
@@ -483,7 +485,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   add_holes(body, skin.holes, origin);
   describe_likeness(*options.corrections, result);
   if (!is_torso)
-    for (const Finding& doubt : doubts_of(body, options.corrections->unlikeness(result.features))) {
+    for (const Finding& doubt :
+         doubts_of(body, options.corrections->strangeness(result.features))) {
       body.scan.findings.push_back(doubt);
       if (doubt.severity == "error")
         result.doubts.push_back(doubt);

@@ -90,6 +90,15 @@ std::vector<aiVector3D> placed(const aiMesh& mesh, const aiMatrix4x4& own,
   return positions;
 }
 
+/// The vertices as they were bound, which needs no joint.
+std::vector<aiVector3D> bound(const aiMesh& mesh, const aiMatrix4x4& own) {
+  std::vector<aiVector3D> positions;
+  positions.reserve(mesh.mNumVertices);
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+    positions.push_back(own * mesh.mVertices[v]);
+  return positions;
+}
+
 /// Adds a mesh at its place; false, with a complaint, where it is broken.
 bool add_mesh(const aiMesh& part, const std::vector<aiVector3D>& positions, bool mirrored,
               std::map<std::array<double, 3>, int>& known, TriangleMesh& mesh,
@@ -118,7 +127,7 @@ bool add_mesh(const aiMesh& part, const std::vector<aiVector3D>& positions, bool
   return true;
 }
 
-TriangleMesh import(const std::string& path, std::string& complaint) {
+TriangleMesh import(const std::string& path, SkinPose pose, std::string& complaint) {
   TriangleMesh mesh;
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
@@ -140,7 +149,9 @@ TriangleMesh import(const std::string& path, std::string& complaint) {
         continue;
       const aiMesh& part = *scene->mMeshes[node->mMeshes[k]];
       const bool mirrored = part.mNumBones == 0 && aiMatrix4x4(own).Determinant() < 0;
-      if (!add_mesh(part, placed(part, own, joints), mirrored, known, mesh, complaint))
+      const std::vector<aiVector3D> positions =
+          pose == SkinPose::BIND ? bound(part, own) : placed(part, own, joints);
+      if (!add_mesh(part, positions, mirrored, known, mesh, complaint))
         return mesh;
     }
   if (mesh.positions.empty())
@@ -148,12 +159,12 @@ TriangleMesh import(const std::string& path, std::string& complaint) {
   return mesh;
 }
 
-[[noreturn]] void import_and_tell(const std::string& path, int to) {
+[[noreturn]] void import_and_tell(const std::string& path, SkinPose pose, int to) {
   ::alarm(LONGEST_S);
   std::string complaint;
   TriangleMesh mesh;
   try {
-    mesh = import(path, complaint);
+    mesh = import(path, pose, complaint);
   } catch (const std::exception& e) {
     complaint = e.what();
   }
@@ -171,7 +182,8 @@ bool is_read_by_assimp(const std::string& extension) {
   return std::find(std::begin(EXTENSIONS), std::end(EXTENSIONS), extension) != std::end(EXTENSIONS);
 }
 
-TriangleMesh read_with_assimp(const std::string& path, const std::string& extension) {
+TriangleMesh read_with_assimp(const std::string& path, const std::string& extension,
+                              SkinPose pose) {
   int pipe[2];
   if (::pipe(pipe) != 0)
     throw Error(ErrorKind::INTERNAL, "general.system-refused"_id, path, "",
@@ -179,7 +191,7 @@ TriangleMesh read_with_assimp(const std::string& path, const std::string& extens
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(pipe[0]);
-    import_and_tell(path, pipe[1]);
+    import_and_tell(path, pose, pipe[1]);
   }
   ::close(pipe[1]);
   TriangleMesh mesh;

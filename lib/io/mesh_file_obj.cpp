@@ -24,7 +24,10 @@ struct ObjCorner {
 /// Walks an OBJ line by line, and tells what it meets; a line that ends in a backslash goes on.
 class ObjWalk {
 public:
-  ObjWalk(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
+  ObjWalk(std::string_view text, const std::string& name) : m_text(text), m_name(name) {
+    while (!m_text.empty() && m_text.back() == '\0')
+      m_text.remove_suffix(1); // padding
+  }
 
   bool next_line() {
     if (m_next >= m_text.size())

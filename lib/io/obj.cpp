@@ -16,6 +16,9 @@ public:
       : m_text(text), m_name(name), m_keep_texture(keep_texture) {}
 
   ObjMesh run() {
+    // some programs pad a text with zeros
+    while (!m_text.empty() && m_text.back() == '\0')
+      m_text.remove_suffix(1);
     if (m_text.substr(0, 3) == "\xEF\xBB\xBF")
       m_text.remove_prefix(3); // byte order mark, as some editors write it
     while (m_at < m_text.size()) {

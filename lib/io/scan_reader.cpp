@@ -411,7 +411,7 @@ std::string format_of(const std::string& path, std::string_view bytes) {
 
 } // namespace
 
-Scan read_scan(const std::string& path) {
+Scan read_scan(const std::string& path, SkinPose pose) {
   const std::string bytes = read_file(path);
   if (bytes.empty())
     throw input_error("file.empty"_id, path, "", "is empty", EXPECTED);
@@ -433,7 +433,7 @@ Scan read_scan(const std::string& path) {
   else if (scan.format == "pcd")
     scan.mesh = parse_pcd(bytes, path);
   else
-    scan.mesh = read_with_assimp(path, scan.format);
+    scan.mesh = read_with_assimp(path, scan.format, pose);
   if (scan.mesh.positions.empty())
     throw input_error("scan.no-vertices"_id, path, "", "holds no vertices", EXPECTED);
   return scan;

@@ -4,6 +4,7 @@
 /// body/.
 /// Test: tests/io/test_reader_mutations.cpp
 #include <sloper/geometry/triangle_mesh.hpp>
+#include <sloper/io/skin_pose.hpp>
 #include <string>
 #include <string_view>
 namespace sloper::io {
@@ -24,7 +25,7 @@ struct Scan {
 /// hold a number that is not finite. OBJ takes about 25 ms per 10 MB; the other formats
 /// less.
 /// @throws Error INPUT naming file, line or element, and the fact
-Scan read_scan(const std::string& path);
+Scan read_scan(const std::string& path, SkinPose pose = SkinPose::AS_SHOWN);
 
 /// PLY bytes, text or binary.
 /// @param name  for messages

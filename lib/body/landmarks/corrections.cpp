@@ -10,11 +10,12 @@ extern const char* const STANDARD_CORRECTIONS; ///< generated from rules/correct
 
 namespace {
 
-constexpr double UNIT = 1e-5;   ///< of stature: the document's weights are whole numbers of it
-constexpr double SHARE = 1e-3;  ///< of a standard deviation, or of a unit vector's length
-constexpr double MOST = 0.03;   ///< of stature: no correction is larger along any axis
-constexpr double BEYOND = 3;    ///< standard deviations: farther out a feature counts no more
-constexpr double FAR = 6;       ///< and for the unlikeness no more than this
+constexpr double UNIT = 1e-5;  ///< of stature: the document's weights are whole numbers of it
+constexpr double SHARE = 1e-3; ///< of a standard deviation, or of a unit vector's length
+constexpr double MOST = 0.03;  ///< of stature: no correction is larger along any axis
+constexpr double BEYOND = 3;   ///< standard deviations: farther out a feature counts no more
+constexpr double FAR = 6;      ///< and for the unlikeness no more than this
+constexpr double NOTHING_LEARNED = 2; ///< of a make's limit: what was learned says nothing at all
 constexpr double NO_MORE = 1.2; ///< of a make's limit, at which its bodies say nothing any more
 
 std::vector<double> numbers_of(const io::Node& list, double unit) {
@@ -219,6 +220,26 @@ Corrections::expected(const std::string& place, const ShapeFeatures& features, i
   if (it == m_expected.end() || likeness(features) < 1)
     return std::nullopt;
   return Expected{linear(it->second, features, side), it->second.sd};
+}
+
+double Corrections::strangeness(const ShapeFeatures& features) const {
+  const std::vector<double> far = distances(features);
+  if (far.empty())
+    return 0;
+  double least = 1e300;
+  for (std::size_t m = 0; m < far.size(); ++m)
+    least = std::min(least, far[m] / m_makes[m].limit);
+  return least;
+}
+
+std::optional<Corrections::Expected>
+Corrections::extrapolated(const std::string& place, const ShapeFeatures& features, int side) const {
+  const auto it = m_expected.find(place);
+  const double strange = strangeness(features);
+  if (it == m_expected.end() || strange > NOTHING_LEARNED)
+    return std::nullopt;
+  const double wider = std::max(1.0, strange * strange);
+  return Expected{linear(it->second, features, side), wider * it->second.sd};
 }
 
 } // namespace sloper::body

@@ -5,10 +5,10 @@
 #include <sloper/body/body.hpp>
 namespace sloper::body {
 
-/// @param unlikeness of the shape to the bodies that the rules were learned from
-/// (Corrections::unlikeness)
+/// @param strangeness of the shape to the bodies that the rules were learned from
+/// (Corrections::strangeness)
 /// @return findings of severity "error" for what cannot be right, with the place; "warning" for
 /// what is doubtful. Landmarks that are missing are not asked
-std::vector<Finding> doubts_of(const Body& body, double unlikeness);
+std::vector<Finding> doubts_of(const Body& body, double strangeness);
 
 } // namespace sloper::body

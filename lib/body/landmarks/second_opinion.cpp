@@ -46,7 +46,7 @@ std::vector<Finding> second_opinions(Body& body, const Corrections& corrections,
     const auto found = body.landmarks.find(place.landmark);
     if (found == body.landmarks.end())
       continue;
-    const auto expected = corrections.expected(place.learned, features, place.side);
+    const auto expected = corrections.extrapolated(place.learned, features, place.side);
     if (!expected)
       continue;
     Landmark& landmark = found->second;

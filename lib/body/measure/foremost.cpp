@@ -175,4 +175,17 @@ std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span 
   return outline.middle(inner, first, last);
 }
 
+Span as_far_if_leaning(const Finder& finder, Span heights, Span across, double sign,
+                       const Vec3& place, double flat, double lean) {
+  Span span{place.y(), place.y()};
+  for (const Vec3& p : outline_of(finder, heights, across, sign)) {
+    const double less = sign * (place.z() - p.z());
+    if (less > flat * finder.s + lean * std::abs(p.y() - place.y()))
+      continue;
+    span.low = std::min(span.low, p.y());
+    span.high = std::max(span.high, p.y());
+  }
+  return span;
+}
+
 } // namespace sloper::body

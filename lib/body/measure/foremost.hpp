@@ -30,4 +30,11 @@ struct Span {
 std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span across, double sign,
                                        double flat, double inside = 0.0036);
 
+/// Heights, m, of all skin that would be as far out as `place` if the body leaned by up to `lean`
+/// more: which of them is foremost is a matter of how the body stands.
+/// @param heights,across,sign,flat as of foremost_place()
+/// @param lean rad
+Span as_far_if_leaning(const Finder& finder, Span heights, Span across, double sign,
+                       const Vec3& place, double flat, double lean);
+
 } // namespace sloper::body

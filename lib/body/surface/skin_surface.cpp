@@ -127,6 +127,34 @@ void fair(TriangleMesh& mesh, int rounds) {
   }
 }
 
+/// Pieces of the skin, 2 % of the largest's area and more, that reach out beyond it on a side: arms
+/// that are bodies of their own within sleeves. No way over the skin leads to them.
+int pieces_aside(const TriangleMesh& mesh, double stature) {
+  constexpr double LEAST_AREA = 0.02, LEAST_ASIDE = 0.03; // of the largest's, of stature
+  const std::vector<int> piece = connected_components(mesh.positions.size(), mesh.triangles);
+  if (piece.empty())
+    return 0;
+  struct Piece {
+    double area = 0;
+    Box3 box;
+  };
+  std::vector<Piece> pieces(
+      static_cast<std::size_t>(*std::max_element(piece.begin(), piece.end())) + 1);
+  for (const Triangle& t : mesh.triangles)
+    pieces[piece[t[0]]].area +=
+        area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).norm();
+  for (std::size_t v = 0; v < piece.size(); ++v)
+    pieces[piece[v]].box.add(mesh.positions[v]);
+  const Piece& largest = *std::max_element(
+      pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.area < b.area; });
+  const double most = LEAST_ASIDE * stature;
+  return static_cast<int>(std::count_if(pieces.begin(), pieces.end(), [&](const Piece& other) {
+    return other.area > LEAST_AREA * largest.area &&
+           (other.box.high.x() > largest.box.high.x() + most ||
+            other.box.low.x() < largest.box.low.x() - most);
+  }));
+}
+
 std::string text_of(const char* format, double x) {
   char text[120];
   std::snprintf(text, sizeof text, format, x);
@@ -228,6 +256,8 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
     else if (skin.crowded_edges > MAX_BORDER_SHARE * edges)
       why =
           "the scan has " + std::to_string(skin.crowded_edges) + " edges with more than two faces";
+    else if (const int aside = pieces_aside(skin.mesh, stature))
+      why = "its limbs are " + std::to_string(aside) + " pieces of their own";
     else if (skin.noise_m > most_noise)
       why = text_of("the scan is rough (%.1f mm)", 1000 * skin.noise_m);
   }

@@ -312,6 +312,18 @@ TEST(ScanReader, a_skinned_gltf_is_read_in_the_pose_of_its_joints) {
   ASSERT_EQ(mesh.positions.size(), 3u);
   EXPECT_LT((mesh.positions[1] - Vec3(1, 2, 0)).norm(), 1e-5);
   EXPECT_LT((mesh.positions[2] - Vec3(0, 3, 0)).norm(), 1e-5);
+  // as it was bound the joint stands at its foot, and only the scale above the mesh is left
+  const TriangleMesh bound = read_scan(gltf.path, SkinPose::BIND).mesh;
+  ASSERT_EQ(bound.positions.size(), 3u);
+  EXPECT_LT((bound.positions[1] - Vec3(0.01, 0, 0)).norm(), 1e-5);
+  EXPECT_LT((bound.positions[2] - Vec3(0, 0.01, 0)).norm(), 1e-5);
+}
+
+TEST(ScanReader, zeros_after_the_text_of_an_obj_are_padding) {
+  const Beside padded("padded.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + std::string(3, '\0'));
+  EXPECT_EQ(read_scan(padded.path).mesh.triangles.size(), 1u);
+  const Beside within("within.obj", "v 0 0 0\nv 1 0 0\n" + std::string(1, '\0') + "v 0 1 0\n");
+  EXPECT_NE(complaint([&] { read_scan(within.path); }).find("is not text"), std::string::npos);
 }
 
 TEST(ScanReader, a_missing_file_is_bad_input) {

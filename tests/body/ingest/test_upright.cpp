@@ -4,6 +4,7 @@
 #include <body/ingest/upright.hpp>
 #include <body/ingest/vertical.hpp>
 #include <gtest/gtest.h>
+#include <sloper/geometry/rotation.hpp>
 
 using namespace sloper;
 using namespace sloper::body;
@@ -92,4 +93,17 @@ TEST(Vertical, of_the_file_stays_where_a_person_bends_over_level_soles) {
   const Body body = test::measure(bent).body;
   EXPECT_NEAR((body.scan_to_body.block<1, 3>(1, 0).normalized() - Vec3::UnitY().transpose()).norm(),
               0, 1e-6);
+}
+
+TEST(Vertical, of_a_slumped_person_is_the_files_where_the_soles_nearly_rest_on_its_level) {
+  TriangleMesh mesh = test::mannequin("m-178-a").mesh;
+  for (Vec3& p : mesh.positions) {
+    if (p.y() > 0.9)
+      p.z() -= 0.13 * (p.y() - 0.9); // the head lies 11 cm back
+    if (p.y() < 0.1)
+      p.y() -= 0.030 * (p.z() - 0.02); // soles 1.7 degrees from the level
+  }
+  const Body body = test::measure(mesh).body;
+  const Vec3 up = body.scan_to_body.block<1, 3>(1, 0).transpose().normalized();
+  EXPECT_LT(degrees_between(up, Vec3::UnitY()), 0.1);
 }

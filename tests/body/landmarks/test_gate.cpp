@@ -1,4 +1,6 @@
 /// Who stands is measured, however the arms are held; who does not is told so.
+#include <body/landmarks/dependents.hpp>
+#include <body/landmarks/gate.hpp>
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
@@ -44,6 +46,66 @@ TEST(Gate, who_squats_is_told_so) {
                              {"shin_l", turn(75, Vec3::UnitX())},
                              {"shin_r", turn(75, Vec3::UnitX())}});
   EXPECT_FALSE(test::measure(squat.skin).doubts.empty());
+}
+
+TEST(Gate, a_proportion_a_little_outside_is_told_and_one_far_outside_refused) {
+  Body body = test::measure(test::mannequin("f-165-a").mesh).body;
+  const double s = body.scan.stature_m;
+  auto severity_for = [&](double share) {
+    body.girths["neck"].value_m = share * s;
+    for (const Finding& doubt : doubts_of(body, 0))
+      if (doubt.place == "neck")
+        return doubt.severity;
+    return std::string("none");
+  };
+  EXPECT_EQ(severity_for(0.2), "none");
+  EXPECT_EQ(severity_for(0.13), "warning"); // a dummy's
+  EXPECT_EQ(severity_for(0.09), "error");
+}
+
+TEST(Gate, a_shape_stranger_than_the_bodies_learned_from_is_told) {
+  const Body body = test::measure(test::mannequin("f-165-a").mesh).body;
+  auto is_told = [&](double strangeness) {
+    for (const Finding& doubt : doubts_of(body, strangeness))
+      if (doubt.place == "scan" && doubt.severity == "warning")
+        return true;
+    return false;
+  };
+  EXPECT_FALSE(is_told(0.9));
+  EXPECT_TRUE(is_told(1.1));
+}
+
+TEST(Dependents, share_the_doubt_of_what_they_rest_on) {
+  Body body;
+  body.scan.stature_m = 1.7;
+  auto put = [&](const char* name, double y, double confidence) {
+    body.landmarks[name] = {Vec3(0.1, y, 0), 2, "rule", confidence, 0.01, {}};
+  };
+  put("neck_back", 1.45, 0.2);
+  put("neck_side_l", 1.46, 0.5);
+  put("elbow_l", 1.1, 0.6);
+  put("olecranon_l", 1.1, 0.5);
+  put("axilla_l", 1.28, 0.7);
+  put("axilla_merge_l", 1.25, 0.8); // 3 cm below: arm and trunk touch
+  put("axilla_r", 1.28, 0.7);
+  put("axilla_merge_r", 1.275, 0.8);
+  body.scan.findings.push_back({"scan.landmark-unlikely"_id, "warning", "higher", "neck_back"});
+  doubt_dependents(body, 0.8);
+  auto is_warned_of = [&](const std::string& name) {
+    for (const Finding& finding : body.scan.findings)
+      if (finding.place == name && finding.severity == "warning")
+        return true;
+    return false;
+  };
+  EXPECT_TRUE(is_warned_of("neck_side_l"));
+  EXPECT_DOUBLE_EQ(body.landmarks["neck_side_l"].confidence, 0.2);
+  EXPECT_FALSE(is_warned_of("olecranon_l"));
+  EXPECT_TRUE(is_warned_of("axilla_merge_l"));
+  EXPECT_DOUBLE_EQ(body.landmarks["axilla_merge_l"].confidence, 0.4);
+  EXPECT_FALSE(is_warned_of("axilla_merge_r"));
+  EXPECT_DOUBLE_EQ(body.landmarks["axilla_merge_r"].confidence, 0.8);
+  doubt_dependents(body, 1.2);
+  EXPECT_LT(body.landmarks["olecranon_l"].confidence, 0.5);
 }
 
 TEST(Parts, a_hand_is_arm_where_the_elbow_is_bent) {

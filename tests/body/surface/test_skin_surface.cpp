@@ -24,7 +24,51 @@ double mean_distance(const TriangleMesh& from, const TriangleMesh& to) {
   return sum / n;
 }
 
+/// What of a mesh lies on one side of the plane x = at, closed with a fan.
+TriangleMesh beside(const TriangleMesh& mesh, double at, bool outside) {
+  TriangleMesh part;
+  part.positions = mesh.positions;
+  std::map<std::pair<int, int>, int> edges;
+  for (const Triangle& t : mesh.triangles) {
+    if (std::any_of(t.begin(), t.end(),
+                    [&](int v) { return (mesh.positions[v].x() > at) != outside; }))
+      continue;
+    part.triangles.push_back(t);
+    for (int k = 0; k < 3; ++k)
+      ++edges[{t[k], t[(k + 1) % 3]}];
+  }
+  Vec3 sum = Vec3::Zero();
+  std::vector<std::pair<int, int>> border;
+  for (const auto& [edge, n] : edges)
+    if (!edges.count({edge.second, edge.first})) {
+      border.push_back(edge);
+      sum += part.positions[edge.first];
+    }
+  part.positions.emplace_back(sum / static_cast<double>(border.size()));
+  const int middle = static_cast<int>(part.positions.size()) - 1;
+  for (const auto& [from, to] : border)
+    part.triangles.push_back({to, from, middle});
+  return part;
+}
+
 } // namespace
+
+TEST(Skin, of_arms_that_are_pieces_of_their_own_in_their_sleeves_is_one) {
+  const TriangleMesh& whole = test::mannequin("m-178-a").mesh;
+  TriangleMesh mesh = beside(whole, 0.30, false);     // a sleeve, closed at its end
+  const TriangleMesh arm = beside(whole, 0.27, true); // and an arm that begins within it
+  const int first = std::ssize(mesh.positions);
+  mesh.positions.insert(mesh.positions.end(), arm.positions.begin(), arm.positions.end());
+  for (const Triangle& t : arm.triangles)
+    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const MeasuredScan measured = test::measure(mesh);
+  EXPECT_TRUE(measured.missing.empty());
+  EXPECT_TRUE(measured.doubts.empty());
+  const Body expected = test::measure(whole).body;
+  for (const char* name : {"wrist_l", "elbow_l", "acromion_l", "wrist_r"})
+    EXPECT_LT((test::in_scan(measured.body, name) - test::in_scan(expected, name)).norm(), 0.025)
+        << name;
+}
 
 TEST(Skin, of_a_sound_mesh_is_the_mesh_itself) {
   const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;

@@ -1,0 +1,232 @@
+#include <body/landmarks/bust_landmarks.hpp>
+#include <body/landmarks/trunk_section.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::body {
+
+namespace {
+
+constexpr double FOLD_HALF_WIDTH = 0.005;   // of stature, over which the fold's profile is read
+constexpr double FOLD_STEP = 0.003;         // of stature, over which its slope is taken
+constexpr double FOLD_SEARCH_STEP = 0.0015; // of stature
+constexpr double BESIDE_MIDDLE_M = 0.002;   // a side begins here
+constexpr double MUSCLE_HALF_WIDTH = 0.004; // of stature, over which a nipple's front is read
+constexpr double MUSCLE_ABOVE = 0.002;      // of stature: the skin beside a nipple, not its tip
+
+/// Of stature: a belly's upper end may stand out before the chest by this much; of 24 men by 0.002
+/// or by more than 0.005, which is another place.
+constexpr double BELLY_BEFORE = 0.0035;
+/// From `inner` to `outer` beside the mid-plane on one side.
+Span half_front(int side, double inner, double outer) {
+  return side == 0 ? Span{inner, outer} : Span{-outer, -inner};
+}
+
+/// The front of the chest on one side.
+Span chest_half(const Finder& f, int side) {
+  return half_front(side, BESIDE_MIDDLE_M, f.number("bust.chest_end") * f.s);
+}
+
+/// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be:
+/// near the foremost skin of its side.
+bool is_nipple_pair(const Finder& f) {
+  const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
+  if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump"))
+    return false;
+  if (std::abs(l->p.y() - r->p.y()) >= f.number("bust.bumps_aslant") * f.s)
+    return false;
+  if (std::abs(l->p.x() + r->p.x()) >= f.number("bust.bumps_off_middle") * f.s)
+    return false;
+  const double near = f.number("bust.bump_near") * f.s;
+  for (int side = 0; side < 2; ++side) {
+    const Vec3& p = f.figure.nipple[side]->p;
+    const auto foremost =
+        foremost_place(f, {p.y() - near, p.y() + near}, chest_half(f, side), 1, PEAKED);
+    // a clear bump is believed farther back: a stout trunk leans, and its belly or the middle of
+    // its chest is foremost
+    const double clear =
+        std::clamp(std::min(l->height, r->height) / f.number("bust.bump") - 1, 0.0, 1.0);
+    if (foremost && p.z() < foremost->p.z() - (1 + 2 * clear) * f.number("bust.bump_behind") * f.s)
+      return false;
+  }
+  return true;
+}
+
+using BothSides = std::array<std::optional<Vec3>, 2>;
+
+/// Bust points beside the mid-plane at the given height. On a bust the foremost skin near the
+/// expected height draws them half way, sideways as far as it stands out clearly from the skin
+/// between both sides.
+/// @return whether it did on either side
+bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
+  const double s = f.s;
+  const Span inner_outer{f.number("bust.inner") * s, f.number("bust.outer") * s};
+  const double search = f.number("bust.search") * s;
+  const double believed = f.number("bust.believed") * s;
+  bool drawn = false;
+  for (int side = 0; side < 2; ++side) {
+    double height = y, x = (side == 0 ? 1 : -1) * f.number("bust.beside") * s;
+    if (f.situation.female)
+      if (const auto place =
+              foremost_place(f, {expected - search, expected + search},
+                             half_front(side, inner_outer.low, inner_outer.high), 1, PEAKED))
+        if (const Vec3* p = &place->p;
+            p->y() > expected - believed && p->y() < expected + believed) {
+          height = 0.5 * (y + p->y());
+          drawn = true;
+          if (const auto between = front_at(f, 0, p->y(), FRONT_HALF_WIDTH * s))
+            x += 0.5 *
+                 std::clamp((p->z() - between->z()) / (f.number("bust.clear_of_middle") * s), 0.0,
+                            1.0) *
+                 (p->x() - x);
+        }
+    points[side] = front_at(f, x, height, FRONT_HALF_WIDTH * s);
+  }
+  return drawn;
+}
+
+/// Where a belly runs out before the chest, the foremost place of the chest is said to be unsure:
+/// with the place, if there is one, that stands out between both ends of the heights.
+void doubt_prominence(const Finder& f, int side, const Vec3& bust_point) {
+  constexpr double AT_END = 0.004, DOUBT = 0.5; // of stature, of the confidence
+  constexpr double PLACES_APART =
+      0.02; // of stature: of 64 fresh bodies on one such place was wrong
+  const std::string name = std::string("bust_prominent") + side_suffix(side);
+  if (!f.has(name))
+    return;
+  const Span heights{bust_point.y() - f.number("bust.prominent_below") * f.s,
+                     bust_point.y() + f.number("bust.prominent_above") * f.s};
+  Landmark& landmark = f.body.landmarks[name];
+  if (landmark.p.y() > heights.low + AT_END * f.s)
+    return;
+  const auto inside = place_of(foremost_place(f, heights, chest_half(f, side), 1, PEAKED, f.s));
+  const Vec3 other = inside ? *inside : bust_point;
+  if ((other - landmark.p).norm() < PLACES_APART * f.s)
+    return;
+  f.also(name, other);
+  landmark.confidence *= DOUBT;
+  f.body.scan.findings.push_back(
+      {"scan.landmark-unlikely"_id, "warning",
+       "the belly runs out before the chest: its foremost place is unsure", name});
+}
+
+} // namespace
+
+void find_bust(const Finder& f, double pit) {
+  const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
+  const double by_trunk = crotch + f.number("bust.of_trunk") * trunk,
+               by_pit = pit - f.number("bust.below_pit") * s;
+  const double expected =
+      f.by_population("bust_point", pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk);
+  using Found = std::optional<BothSides>;
+  const auto points = f.choose<BothSides>(
+      "bust_point", "bust_point",
+      {{"bump_of_chest",
+        [&]() -> Found {
+          if (!is_nipple_pair(f))
+            return std::nullopt;
+          BothSides both;
+          for (int side = 0; side < 2; ++side) {
+            const Vec3& p = f.figure.nipple[side]->p;
+            both[side] = front_at(f, p.x(), p.y() + MUSCLE_ABOVE * s, MUSCLE_HALF_WIDTH * s);
+          }
+          return both;
+        }},
+       {"above_chest_muscle",
+        [&]() -> Found { // the chest muscles' lower corners
+          const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
+          if (!l || !r)
+            return std::nullopt;
+          const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
+          const double off = std::abs(y - expected) / (f.number("bust.muscle_near_ratio") * s);
+          const double aslant =
+              std::abs(l->p.y() - r->p.y()) / (f.number("bust.muscle_aslant") * s);
+          if (off >= 1 || aslant >= 1)
+            return std::nullopt; // it fades towards both, and where it is low, so that nothing
+                                 // jumps
+          const double clear =
+              std::clamp(std::min(l->height, r->height) / f.number("bust.bump") - 0.5, 0.0, 1.0);
+          const double share =
+              0.5 * clear * std::min(1.0, 2 * (1 - off)) * std::min(1.0, 2 * (1 - aslant));
+          BothSides both;
+          bust_at(f, expected, expected + share * (y - expected), both);
+          return both;
+        }},
+       {"foremost_near_ratio",
+        [&]() -> Found {
+          BothSides both;
+          return bust_at(f, expected, expected, both) ? Found(both) : std::nullopt;
+        }},
+       {"trunk_ratio", [&]() -> Found {
+          BothSides both;
+          for (int side = 0; side < 2; ++side)
+            both[side] = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
+                                  FRONT_HALF_WIDTH * s);
+          return both;
+        }}});
+  if (!points)
+    return;
+  double sum = 0;
+  int n = 0;
+  for (int side = 0; side < 2; ++side) {
+    if (!points->value[side])
+      continue;
+    const std::string suffix = side_suffix(side);
+    const bool is_seen = points->rule->name == "bump_of_chest"; // what is seen is not corrected
+    const std::optional<Vec3> point =
+        is_seen ? points->value[side]
+                : f.corrected("bust_point", suffix, *points->value[side], true);
+    f.put("bust_point" + suffix, *point, 2, *points->rule);
+    f.find("bust_prominent", suffix, 2,
+           {{"foremost_of_chest", [&] {
+               return place_of(foremost_place(f,
+                                              {point->y() - f.number("bust.prominent_below") * s,
+                                               point->y() + f.number("bust.prominent_above") * s},
+                                              chest_half(f, side), 1, PEAKED, BELLY_BEFORE));
+             }}});
+    doubt_prominence(f, side, *point);
+    if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
+                                FRONT_HALF_WIDTH * s))
+      f.also("bust_point" + suffix, *p);
+    sum += point->y();
+    ++n;
+  }
+  if (n == 2)
+    put_level(f, "bust", sum / 2, points->rule->name);
+}
+
+std::optional<double> breast_fold(const Finder& f, double bust_y, double expected) {
+  const double s = f.s, step = FOLD_STEP * s;
+  const double begin = bust_y - f.number("underbust.fold_begin") * s;
+  const double end = bust_y - f.number("underbust.fold_end") * s;
+  if (!f.has("bust_point_l") || !f.has("bust_point_r"))
+    return std::nullopt;
+  double sum = 0;
+  int n = 0;
+  for (const char* name : {"bust_point_l", "bust_point_r"}) {
+    const double x = f.at(name).x();
+    double sharpest = f.number("underbust.fold_turn"), at = 0;
+    for (double y = begin; y > end; y -= FOLD_SEARCH_STEP * s) {
+      const auto a = front_at(f, x, y + 2 * step, FOLD_HALF_WIDTH * s),
+                 b = front_at(f, x, y, FOLD_HALF_WIDTH * s),
+                 c = front_at(f, x, y - 2 * step, FOLD_HALF_WIDTH * s);
+      if (!a || !b || !c)
+        continue;
+      const double turn = (c->z() - b->z()) / (2 * step) - (b->z() - a->z()) / (2 * step);
+      if (turn > sharpest) {
+        sharpest = turn;
+        at = y;
+      }
+    }
+    if (at > 0) {
+      sum += at;
+      ++n;
+    }
+  }
+  if (n == 0)
+    return std::nullopt;
+  return (sum + (2 - n) * expected) / 2;
+}
+
+} // namespace sloper::body
