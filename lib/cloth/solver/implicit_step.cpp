@@ -414,10 +414,14 @@ StepResult ClothSolver::step(const StepOptions& o) {
     add_forces(m_elements, m_force);
     for (std::size_t i = 0; i < n; ++i) {
       double inertia = m_mesh.mass[i] / (o.h * o.h);
-      if (m_blocked_for[i] > 0)
+      const bool blocked = m_blocked_for[i] > 0;
+      if (blocked)
         inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
       m_matrix.add_isotropic_diagonal(static_cast<int>(i), inertia);
-      m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
+      // The pinch takes the force of what is blocked. In the right-hand side it would be all that
+      // the solve's tolerances measure, and the rest of the cloth would move by what is left over.
+      m_rhs[i] = blocked ? Vec3(Vec3::Zero())
+                         : Vec3(m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i]);
     }
   }
   if (!assembled_finite()) {

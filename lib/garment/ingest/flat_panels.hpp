@@ -1,17 +1,10 @@
 #pragma once
 /// Flat panels of a garment that has no pattern: of its texture coordinates where these are the
 /// flat pattern, else of its own surface, unrolled.
+#include <garment/ingest/unroll.hpp>
 #include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
-
-/// A surface in space to be laid flat.
-struct CurvedSurface {
-  std::vector<Vec3> position;       ///< #P by 3, m
-  std::vector<Triangle> triangles;  ///< #F, facing outward
-  std::vector<int> region;          ///< #F: panels do not go beyond a region
-  std::vector<Vec3> warp_of_region; ///< by region: the direction in space of the warp
-};
 
 /// Panels, rest lengths and which panel vertex is which particle. `panels` has no seams but those
 /// between panels, as runs of edges; `placed` is empty.
@@ -46,7 +39,6 @@ TextureIsometry texture_isometry(const CurvedSurface& surface, const std::vector
 FlatPanels texture_panels(const CurvedSurface& surface, const std::vector<Vec2>& texture,
                           const std::vector<Triangle>& corners, const TextureIsometry& isometry);
 
-inline constexpr double UNROLLED_STRETCH = 0.03;
 inline constexpr double TEXTURE_STRETCH =
     0.06; ///< worn cloth is stretched by less, all but a little
 inline constexpr double TEXTURE_SHARE = 0.9;

@@ -19,6 +19,7 @@ constexpr double STRAIGHT_ON = 25; // degrees: CAD files cut sides up at corners
 // Log-odds of the judge. On 65 specifications kept from learning 875 of the 880 pairs above the
 // first were right (scripts/seam-inference).
 constexpr double CERTAIN = 4.6, WORTH_ASKING = -1, WORTH_A_WORD = -4;
+constexpr double LIKELY = 0.5;       // probability: rather sewn than not
 constexpr double GATHERED = 0.08;    // logarithm of lengths
 constexpr double SAME_LENGTH = 0.03; // logarithm: the two sides of a sleeve's seam
 // Log-odds. The model learned from sleeves of two pieces; those of CAD files are mostly of one.
@@ -156,6 +157,7 @@ public:
       out.push_back(std::move(guess));
       taken.push_back(pair);
     }
+    add_missing_twins(out, taken);
     for (std::size_t k = 0; k < out.size(); ++k) {
       if (out[k].certain)
         continue;
@@ -199,6 +201,32 @@ private:
       guess.seam.kind = "gather";
     guess.score = probability(odds);
     return guess;
+  }
+  /// People are symmetric: where what is asked has a mirror image whose sides nothing else takes,
+  /// that is asked along with it, whether the assembly came upon it or not.
+  void add_missing_twins(std::vector<SeamGuess>& out, std::vector<SidePair>& taken) const {
+    std::vector<char> in_use(m_sides.size(), 0);
+    for (const SidePair& pair : taken)
+      in_use[index(pair[0])] = in_use[index(pair[1])] = 1;
+    const std::size_t found = taken.size();
+    for (std::size_t k = 0; k < found; ++k) {
+      const auto twins = m_witness.twins(index(taken[k][0]), index(taken[k][1]));
+      const bool has_one = std::any_of(twins.begin(), twins.end(), [&](const SidePair& twin) {
+        return std::find(taken.begin(), taken.end(), twin) != taken.end();
+      });
+      if (out[k].certain || has_one || out[k].score < LIKELY)
+        continue;
+      for (const SidePair& twin : twins) {
+        const double odds = m_result.base[index(twin[0]) * m_sides.size() + index(twin[1])];
+        if (in_use[index(twin[0])] || in_use[index(twin[1])] || odds < WORTH_A_WORD)
+          continue;
+        in_use[index(twin[0])] = in_use[index(twin[1])] = 1;
+        out.push_back(guess_of(twin, odds));
+        out.back().score = out[k].score;
+        taken.push_back(twin);
+        break;
+      }
+    }
   }
   std::optional<SeamGuess> next_best(const SidePair& pair, const std::vector<char>& used) const {
     SidePair best{-1, -1};

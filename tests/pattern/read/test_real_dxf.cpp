@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sloper/base/error.hpp>
+#include <sloper/pattern/seams/infer_seams.hpp>
 
 namespace sloper::pattern::test::real_dxf {
 namespace {
@@ -84,6 +85,30 @@ TEST(RealDxf, APieceThatIsCutTwiceHasItsMirrorImage) {
                                                         text(0, 0, "Annotation: 2XFABRIC"))),
                                "p.dxf");
   EXPECT_EQ(one.panels.size(), 1u) << "the quantity counts";
+}
+
+/// Front and back in one piece each, sleeves in two halves that are cut twice.
+TEST(RealDxf, OfBothShouldersNoneIsLeftOut) {
+  const Points front = {{0, 0},     {520, 0},   {520, 460}, {460, 520}, {450, 660}, {350, 700},
+                        {310, 620}, {210, 620}, {170, 700}, {70, 660},  {60, 520},  {0, 460}},
+               back = {{0, 0},     {520, 0},   {520, 460}, {470, 510}, {460, 670}, {350, 715},
+                       {300, 690}, {220, 690}, {170, 715}, {60, 670},  {50, 510},  {0, 460}},
+               sleeve_front = {{0, 0}, {160, 0}, {188, 81}, {105, 145}, {46, 227}, {0, 229}},
+               sleeve_back = {{0, 0}, {200, 0}, {230, 84}, {180, 150}, {40, 290}, {0, 229}};
+  const Pattern p =
+      read_dxf(file(block("TEE FR", polyline(front) + text(0, 0, "Quantity: 1")) +
+                    block("TEE BK", polyline(back) + text(0, 0, "Quantity: 1")) +
+                    block("TEE SL FR", polyline(sleeve_front) + text(0, 0, "Quantity: 2")) +
+                    block("TEE SL BK", polyline(sleeve_back) + text(0, 0, "Quantity: 2"))),
+               "tee.dxf");
+  int shoulders = 0;
+  for (const SeamGuess& guess : infer_seams(p)) {
+    const pattern::Run &a = guess.seam.a[0], &b = guess.seam.b[0];
+    const std::string names =
+        p.panels[a.panel].edge(a.edge).name + " " + p.panels[b.panel].edge(b.edge).name;
+    shoulders += names == "edge4 edge8" || names == "edge6 edge4";
+  }
+  EXPECT_EQ(shoulders, 2) << "one, and its mirror image";
 }
 
 TEST(RealDxf, OfASymmetricPairOneIsTakenUnlessItGoesAroundALimb) {
