@@ -1,6 +1,7 @@
 #include <garment/levels/coarse_start.hpp>
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
+#include <garment/levels/turned_leaves.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/collision/topology.hpp>
 #include <sloper/garment/simulate/telemetry.hpp>
@@ -27,6 +28,7 @@ constexpr SoftRelaxing FINE_RELAXING = {
 constexpr int CLEARING_ROUNDS = 6;
 constexpr double CLEARANCE = 1.1;      // times the contact gap
 constexpr double CLEARING_REACH = 0.1; // m
+constexpr double LEAF_GAP = 0.003;     // m between turned cloth and what it lies on
 
 using Clock = std::chrono::steady_clock;
 
@@ -144,6 +146,7 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
     return "cloth diverged on the given mesh";
   report.steps += FINE_RELAXING.steps;
   clear_of_skin(fine, *met.collider(), CLEARANCE * settings.contact_gap_m);
+  lay_leaves_over(fine, LEAF_GAP);
   report.phases.emplace_back("carry to the mesh", seconds_since(carried));
   garment = std::move(fine);
   return "";

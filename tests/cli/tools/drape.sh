@@ -266,6 +266,41 @@ case_redrapes_are_the_same_bytes_for_any_threads_and_say_what_they_cannot_do() {
   [[ ! -e other.json ]] || fail "an output was written"
 }
 
+# The leaf of an interfaced collar is stiff: it came to rest beneath the fronts, with exit status 0.
+case_an_interfaced_collar_rests_outside_of_the_shirt() {
+  local source makers
+  source=$(dirname "${BASH_SOURCE[0]}")/../../..
+  makers=$(dirname "${program%/*}")/samples
+  run 0 "$makers/make-mannequin" -q --preset f-165-a -o f.scan.obj
+  run 0 "${program%/*}/scan-landmarks" -q -o f.json f.scan.obj
+  run 0 "$makers/make-pattern" -q shirt --turned-collar --body f.json -o s.pattern.json
+  run 0 "${program%/*}/pattern-mesh" -q --edge-length 0.02 --body f.json -o s.panels.json s.pattern.json
+  run 0 "$program" -q --accuracy draft --scene "$source/samples/shirt/interfaced.scene.json" --body f.json --panels s.panels.json -o s.json
+  python3 - << 'END' || fail "the collar is beneath the fronts"
+import math
+
+points = []
+of = {}
+for words in map(str.split, open("s.obj")):
+    if words[:1] == ["v"]:
+        points.append([float(x) for x in words[1:4]])
+    elif words[:1] == ["g"]:
+        panel = of.setdefault(words[1], set())
+    elif words[:1] == ["f"]:
+        panel.update(int(corner.split("/")[0]) - 1 for corner in words[1:])
+stand = [points[v] for v in of["stand"]]
+x, z = (sum(p[k] for p in stand) / len(stand) for k in (0, 2))
+
+
+def out(p):  # from the middle of the stand
+    return math.hypot(p[0] - x, p[2] - z)
+
+
+within = [p for p in (points[v] for v in of["collar"]) if out(p) < out(min(stand, key=lambda q: math.dist(p, q))) - 0.001]
+assert len(within) < 0.05 * len(of["collar"]), (len(within), len(of["collar"]))
+END
+}
+
 case_interfacing_is_of_panels_that_are_there() {
   echo '{"format": "scene", "version": 1, "interfacing": [{"panels": ["collar"], "material": "fusible", "bond": 1}]}' > scene.json
   run 3 "$program" --scene scene.json "${command_line[@]}"

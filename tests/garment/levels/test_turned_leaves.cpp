@@ -1,0 +1,98 @@
+/// Turned collars and lapels lie outside of what they are turned over.
+#include <garment/levels/turned_leaves.hpp>
+#include <gtest/gtest.h>
+#include <mannequin.hpp>
+#include <measures.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/garment/composite.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+
+using namespace sloper;
+using namespace sloper::garment;
+
+namespace {
+
+/// A front of 20 x 20 cm in the plane z = 0, and a leaf of 16 x 6 cm, sewn to its top and turned
+/// over it, at `z`.
+Garment front_with_leaf(double z) {
+  const std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "two", "panels": [
+    {"name": "front", "outline": [{"edge": "hem", "path": [["M", -10, 0], ["L", 10, 0]]}, {"edge": "left", "path": [["L", 10, 20]]},
+      {"edge": "shoulder_l", "path": [["L", 8, 20]]}, {"edge": "top", "path": [["L", -8, 20]]},
+      {"edge": "shoulder_r", "path": [["L", -10, 20]]}, {"edge": "right", "path": [["L", -10, 0]]}]},
+    {"name": "leaf", "outline": [{"edge": "low", "path": [["M", -8, 0], ["L", 8, 0]]}, {"edge": "left", "path": [["L", 8, 6]]},
+      {"edge": "free", "path": [["L", -8, 6]]}, {"edge": "right", "path": [["L", -8, 0]]}],
+      "lines": [{"name": "roll", "kind": "roll", "path": [["M", -8, 0], ["L", 8, 0]]}]}],
+    "seams": [{"name": "low", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "leaf", "edge": "low"}]}]})";
+  const pattern::Pattern source = pattern::read_pattern_json(io::parse_json(text, "two"), "two");
+  Garment garment;
+  garment.panels = pattern::mesh_pattern(source, 0.015, "two");
+  std::vector<Vec3> placed;
+  for (const pattern::PanelInfo& panel : garment.panels.panels)
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
+      const Vec2& p = garment.panels.pattern[v];
+      const bool leaf = panel.name == "leaf";
+      placed.emplace_back(p.x(), leaf ? 0.2 - p.y() : p.y(), leaf && p.y() > 1e-6 ? z : 0);
+    }
+  unsew(garment);
+  garment.position = placed;
+  weld(garment, placed);
+  return garment;
+}
+
+} // namespace
+
+TEST(TurnedLeaves, a_leaf_beneath_the_front_comes_to_lie_on_it_and_the_front_stays) {
+  Garment garment = front_with_leaf(-0.01);
+  const std::vector<Vec3> before = garment.position;
+  EXPECT_GT(lay_leaves_over(garment, 0.003), 10);
+  const pattern::PanelInfo &front = garment.panels.panels[0], &leaf = garment.panels.panels[1];
+  for (int v = 0; v < leaf.first_vertex + leaf.n_vertices; ++v) {
+    const auto i = static_cast<std::size_t>(garment.particle_of[v]);
+    if (v < front.n_vertices)
+      EXPECT_EQ(garment.position[i], before[i]);
+    else if (before[i].z() < 0)
+      EXPECT_NEAR(garment.position[i].z(), 0.003, 1e-9);
+  }
+}
+
+TEST(TurnedLeaves, a_leaf_that_lies_on_the_front_is_left_as_it_is) {
+  Garment garment = front_with_leaf(0.01);
+  EXPECT_EQ(lay_leaves_over(garment, 0.003), 0);
+}
+
+TEST(TurnedLeaves, a_collar_with_interfacing_rests_outside_of_the_shirt) {
+  // Drafted for the body as measured, its stiff leaf came to rest beneath the fronts, with exit
+  // status 0 (tests/cli/tools/drape.sh has that one).
+  const samples::MadeMannequin made = samples::make_mannequin(samples::preset("f-165-a"));
+  const body::Body body = body::measure_scan(made.mesh, "figure", "", {}, silent_reporter()).body;
+  samples::Draft draft = samples::draft_shirt(samples::measures_from_body(made.truth, "figure"));
+  for (samples::DraftPanel& panel : draft.panels)
+    if (panel.name == "collar")
+      panel.roll_edge = "low";
+  const pattern::Pattern source =
+      pattern::read_pattern_json(samples::pattern_document(draft), "shirt");
+  Garment shirt;
+  shirt.panels = pattern::mesh_pattern(source, 0.02, "shirt");
+  shirt.panels.source = std::make_shared<pattern::Pattern>(source);
+  pattern::place_panels(source, body, shirt.panels);
+  const Material cotton = material_preset("cotton-poplin");
+  shirt.materials[""] = cotton;
+  shirt.materials["interfaced"] =
+      layered(cotton, {{material_preset("fusible"), 1.0, false}, {cotton, 0.0, false}});
+  for (pattern::PanelInfo& panel : shirt.panels.panels)
+    if (panel.name == "collar" || panel.name == "stand")
+      panel.material = "interfaced";
+  const DrapeReport report = drape(shirt, &body, preset_settings("draft"), silent_reporter());
+  EXPECT_TRUE(report.converged) << stop_text(report);
+  EXPECT_EQ(report.levels.meshes, 2) << report.levels.why;
+  EXPECT_EQ(report.quality["self_intersections"], 0);
+  EXPECT_EQ(lay_leaves_over(shirt, 0), 0) << "nothing of it is beneath the fronts";
+}
