@@ -181,7 +181,7 @@ int resume(cli::Tool& tool, const Options& o) {
   job.frames = o.frames;
   job.checkpoints.file = o.checkpoint;
   garment::DrapeOutcome outcome =
-      garment::resume_job(job, checkpoint, garment, under, o.body.empty() ? nullptr : &body,
+      garment::resume_job(job, checkpoint, {garment, under}, o.body.empty() ? nullptr : &body,
                           std::cout, tool.reporter());
   return write_out(tool, o, garment, under, body, outcome, inputs, {});
 }
@@ -250,8 +250,8 @@ int run(cli::Tool& tool, Options& o) {
   const body::Body* const dressed = o.body.empty() ? nullptr : &body;
   garment::DrapeOutcome outcome =
       o.redrapes > 0 ? redrape(tool, o, garment, dressed, settings)
-                     : garment::do_drape(job_of(tool, o, scene, settings), garment, layers, dressed,
-                                         settings, std::cout, tool.reporter());
+                     : garment::do_drape(job_of(tool, o, scene, settings), {garment, layers},
+                                         dressed, settings, std::cout, tool.reporter());
   if (!o.untangle_only)
     garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before,
                            findings, tool.reporter());

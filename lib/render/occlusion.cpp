@@ -151,8 +151,8 @@ void Occlusion::DepthMap::raise_to(const std::array<Eigen::Vector3f, 3>& corner,
 }
 
 void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points,
-                        const std::vector<Vec3>& normals, std::vector<float>& lit,
-                        std::vector<float>& all, std::size_t begin, std::size_t end) {
+                        const std::vector<Vec3>& normals, Light& light, std::size_t begin,
+                        std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const float facing = normals[i].cast<float>().dot(map.towards);
     if (facing <= LEAST_FACING)
@@ -160,9 +160,9 @@ void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points,
     const Eigen::Vector3f p = points[i].cast<float>() - map.center;
     const float x = p.dot(map.right) * map.scale + 0.5f * MAP_SIZE - 0.5f,
                 y = p.dot(map.up) * map.scale + 0.5f * MAP_SIZE - 0.5f;
-    all[i] += facing;
+    light.all[i] += facing;
     if (!(x >= 0 && y >= 0 && x < MAP_SIZE - 2 && y < MAP_SIZE - 2)) {
-      lit[i] += facing;
+      light.lit[i] += facing;
       continue;
     }
     const int ix = static_cast<int>(x), iy = static_cast<int>(y);
@@ -175,7 +175,7 @@ void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points,
     auto open = [&](float height) { return 1 - std::clamp((height - limit) / SOFT, 0.f, 1.f); };
     const float share = (1 - fy) * ((1 - fx) * open(row[0]) + fx * open(row[1])) +
                         fy * ((1 - fx) * open(row[MAP_SIZE]) + fx * open(row[MAP_SIZE + 1]));
-    lit[i] += facing * share;
+    light.lit[i] += facing * share;
   }
 }
 
@@ -187,14 +187,15 @@ std::vector<float> Occlusion::gather(const std::vector<Vec3>& directions,
     for (std::size_t k = begin; k < end; ++k)
       maps[k] = depth_from(directions[k]);
   });
-  std::vector<float> lit(points.size(), 0.f), all(points.size(), 0.f);
+  Light light{.all = std::vector<float>(points.size(), 0.f),
+              .lit = std::vector<float>(points.size(), 0.f)};
   parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (const DepthMap& map : maps)
-      receive(map, points, normals, lit, all, begin, end);
+      receive(map, points, normals, light, begin, end);
     for (std::size_t i = begin; i < end; ++i)
-      lit[i] = all[i] > 0 ? lit[i] / all[i] : unlit;
+      light.lit[i] = light.all[i] > 0 ? light.lit[i] / light.all[i] : unlit;
   });
-  return lit;
+  return std::move(light.lit);
 }
 
 std::vector<float> Occlusion::sky(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,

@@ -25,9 +25,13 @@ private:
   struct DepthMap;
   void add_thinned(const DrawMesh& mesh, const Vec3& low, double cell);
   DepthMap depth_from(const Vec3& direction) const;
+  /// By vertex: light that would come without the meshes, and how much of it does.
+  struct Light {
+    std::vector<float> all, lit;
+  };
   static void receive(const DepthMap& map, const std::vector<Vec3>& points,
-                      const std::vector<Vec3>& normals, std::vector<float>& lit,
-                      std::vector<float>& all, std::size_t begin, std::size_t end);
+                      const std::vector<Vec3>& normals, Light& light, std::size_t begin,
+                      std::size_t end);
   std::vector<float> gather(const std::vector<Vec3>& directions, const std::vector<Vec3>& points,
                             const std::vector<Vec3>& normals, float unlit) const;
   std::vector<Eigen::Vector3f> m_positions; ///< of the thinned meshes

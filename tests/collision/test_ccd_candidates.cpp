@@ -185,8 +185,10 @@ TEST(CcdCandidates, FindsThePairsThatAreFartherApartThanThoseKnown) {
   EXPECT_GT(farther, 0U);
   for (const auto& [e, f] : every.edge_edge()) {
     const auto &a = topology.edges[e], &b = topology.edges[f];
-    if (edge_edge(s.x[a[0]], s.x[a[1]], s.x[b[0]], s.x[b[1]]).squared_distance >= KNOWN * KNOWN)
+    const double squared = edge_edge(s.x[a[0]], s.x[a[1]], s.x[b[0]], s.x[b[1]]).squared_distance;
+    if (squared >= KNOWN * KNOWN) {
       EXPECT_TRUE(has(some.edge_edge(), {e, f})) << e << " " << f;
+    }
   }
   EXPECT_LT(some.edge_edge().size(), every.edge_edge().size());
   for (const std::array<int, 2>& pair : some.edge_edge())

@@ -1,4 +1,5 @@
 #include <body/ingest/segmentation.hpp>
+#include <body/ingest/voxels.hpp>
 #include <sloper/base/statistics.hpp>
 #include <sloper/geometry/disjoint_sets.hpp>
 
@@ -24,87 +25,6 @@ constexpr double TOP_LOW = 0.92;    ///< above it there is only the head
 constexpr double TOP_WIDTH = 0.22;  ///< a head is narrower than this share of the height
 constexpr double FLOOR_BAND = 0.08; ///< a floor lies in this share of the height from below
 constexpr double FLOOR_FACTOR = 4; ///< ... and fills this many times the cells of an ordinary layer
-
-/// Occupied cells of a grid over the scan.
-class Voxels {
-public:
-  Voxels(const TriangleMesh& scan, int n_cells) {
-    m_box = box_without_outliers(scan.positions);
-    fill_cells(scan, n_cells);
-  }
-  double cell_size() const { return m_cell; }
-  const Box3& box() const { return m_box; }
-  int count() const { return static_cast<int>(m_cells.size()); }
-  const std::array<int, 3>& cell(int i) const { return m_cells[i]; }
-  int of_vertex(std::size_t v) const { return m_of_vertex[v]; }
-  int extent(int axis) const { return m_n[axis]; }
-  int number_at(int x, int y, int z) const {
-    if (x < 0 || y < 0 || z < 0 || x >= m_n[0] || y >= m_n[1] || z >= m_n[2])
-      return -1;
-    return m_number[(static_cast<std::size_t>(x) * m_n[1] + y) * m_n[2] + z];
-  }
-
-private:
-  /// A few points far off must not make the cells as large as the body.
-  static Box3 box_without_outliers(const std::vector<Vec3>& points) {
-    const Box3 all = bounding_box(points);
-    Box3 box;
-    const std::size_t step = 1 + points.size() / 40000;
-    std::vector<double> values;
-    for (int a = 0; a < 3; ++a) {
-      values.clear();
-      for (std::size_t i = 0; i < points.size(); i += step)
-        values.push_back(points[i][a]);
-      const std::size_t rank = values.size() / 500;
-      const double low = *place_rank(values, rank),
-                   high = *place_rank(values, values.size() - 1 - rank),
-                   margin = 0.3 * (high - low);
-      box.low[a] = std::max(all.low[a], low - margin);
-      box.high[a] = std::min(all.high[a], high + margin);
-    }
-    return box;
-  }
-  void fill_cells(const TriangleMesh& scan, int n_cells) {
-    m_cells.clear();
-    m_cell = std::max(m_box.size().maxCoeff() / n_cells, 1e-12);
-    for (int a = 0; a < 3; ++a)
-      m_n[a] = static_cast<int>(m_box.size()[a] / m_cell) + 1;
-    m_number.assign(static_cast<std::size_t>(m_n[0]) * m_n[1] * m_n[2], -1);
-    m_of_vertex.resize(scan.positions.size());
-    for (std::size_t v = 0; v < scan.positions.size(); ++v)
-      m_of_vertex[v] = add(scan.positions[v]);
-    for (const Triangle& t : scan.triangles)
-      fill(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]);
-  }
-  int add(const Vec3& p) {
-    std::array<int, 3> c;
-    for (int a = 0; a < 3; ++a)
-      c[a] = static_cast<int>(std::clamp((p[a] - m_box.low[a]) / m_cell, 0.0, m_n[a] - 1.0));
-    int& number = m_number[(static_cast<std::size_t>(c[0]) * m_n[1] + c[1]) * m_n[2] + c[2]];
-    if (number < 0) {
-      number = count();
-      m_cells.push_back(c);
-    }
-    return number;
-  }
-  /// Samples a triangle that is larger than a cell.
-  void fill(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double longest =
-        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    if (longest <= m_cell || longest > 0.4 * m_box.size().maxCoeff())
-      return; // a spike to an outlier is no surface
-    const int n = std::min(64, static_cast<int>(std::ceil(longest / (0.7 * m_cell))));
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n - i; ++j)
-        add(a + (b - a) * i / n + (c - a) * j / n);
-  }
-
-  Box3 m_box;
-  double m_cell = 1;
-  std::array<int, 3> m_n{};
-  std::vector<int> m_number, m_of_vertex;
-  std::vector<std::array<int, 3>> m_cells;
-};
 
 /// One reading of the scan: this axis, this sign is up.
 struct Reading {

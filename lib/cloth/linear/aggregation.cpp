@@ -444,17 +444,19 @@ void Aggregation::deflate(const LinearSystem& system, const std::vector<Vec3>& r
 }
 
 bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r,
-                                  CgTolerance tolerance, int max_iterations, double radius,
-                                  std::vector<Vec3>& x, CgResult& result) {
+                                  const CgLimits& limits, std::vector<Vec3>& x, CgResult& result) {
   const double scale = take_in(r);
   for (auto* v : {&m_x, &m_p, &m_q})
     v->assign(r.size(), Float4::all(0));
   const std::vector<Float4>& residual = m_levels[0].r;
-  const double target2 = tolerance.residual * tolerance.residual * dot(residual, residual, m_part);
-  deflate(system, r, radius / scale);
+  const double share = limits.tolerance.residual;
+  const double target2 = share * share * dot(residual, residual, m_part);
+  CgLimits scaled = limits;
+  scaled.radius /= scale;
+  deflate(system, r, scaled.radius);
   const int before = result.iterations;
   conjugate_gradient_loop(SingleSpace{*this, system}, dot(residual, residual, m_part), target2,
-                          tolerance.energy, max_iterations, radius / scale, result);
+                          scaled, result);
   if (system.recurs && result.iterations >= before + SOFT_SOLVE_ITERATIONS)
     m_deflation.keep(m_x);
   hand_out(m_x, scale, x);

@@ -24,8 +24,7 @@ public:
   bool renew(const LinearSystem& system, int iterations) override;
   bool estimates_energy_error() const override { return true; }
   bool solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r,
-                       CgTolerance tolerance, int max_iterations, double radius,
-                       std::vector<Vec3>& x, CgResult& result) override;
+                       const CgLimits& limits, std::vector<Vec3>& x, CgResult& result) override;
   void report_iterations(int iterations) override;
   void reset() override {
     m_levels.clear();

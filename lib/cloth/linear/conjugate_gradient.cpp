@@ -118,13 +118,14 @@ bool falls(const std::vector<Vec3>& x, const std::vector<Vec3>& b,
 } // namespace
 
 CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner,
-                            const std::vector<Vec3>& b, CgTolerance tolerance, int max_iterations,
-                            std::vector<Vec3>& x, CgWork& work, double radius) {
+                            const std::vector<Vec3>& b, const CgLimits& limits,
+                            std::vector<Vec3>& x, CgWork& work) {
   const std::size_t n = b.size();
   for (auto* v : {&work.r, &work.z, &work.p, &work.q})
     v->resize(n);
   x.assign(n, Vec3::Zero());
   work.r = b;
+  CgTolerance tolerance = limits.tolerance;
   if (!preconditioner.estimates_energy_error())
     tolerance.energy = 0;
   CgResult result;
@@ -133,10 +134,12 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
     return {0, 0, 0, true, false, false, false};
   const double target2 = tolerance.residual * tolerance.residual * b_norm2;
   double r_norm2 = b_norm2;
-  while (result.iterations < max_iterations && r_norm2 > target2) {
+  while (result.iterations < limits.max_iterations && r_norm2 > target2) {
     const double share = std::max(AIM * std::sqrt(target2 / r_norm2), FINEST_SHARE);
-    if (!preconditioner.solve_in_single(system, work.r, {share, tolerance.energy}, max_iterations,
-                                        radius - longest(x), work.z, result))
+    const CgLimits round{.tolerance = {share, tolerance.energy},
+                         .max_iterations = limits.max_iterations,
+                         .radius = limits.radius - longest(x)};
+    if (!preconditioner.solve_in_single(system, work.r, round, work.z, result))
       break;
     for (std::size_t i = 0; i < n; ++i)
       work.p[i] = x[i] + work.z[i];
@@ -145,7 +148,7 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
       work.z[i] = b[i] - work.q[i];
     const double after2 = dot(work.z, work.z, work.part);
     const bool ended = result.bounded || result.near ||
-                       result.iterations >= max_iterations; // by what lets the residual grow
+                       result.iterations >= limits.max_iterations; // by what lets the residual grow
     if (!(ended ? std::isfinite(after2) && (result.bounded || falls(work.p, b, work.z))
                 : after2 < r_norm2)) {
       result.bounded = result.near = false;
@@ -161,8 +164,9 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
   if (!result.bounded && !result.near) {
     work.p.assign(n,
                   Vec3::Zero()); // it may hold what is no number, and 0 times that is none either
+    const CgLimits rest{tolerance, limits.max_iterations, limits.radius};
     r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2,
-                                      target2, tolerance.energy, max_iterations, radius, result);
+                                      target2, rest, result);
   }
   result.residual = std::sqrt(r_norm2 / b_norm2);
   result.converged = result.near || r_norm2 <= target2;

@@ -359,8 +359,8 @@ CgResult ClothSolver::solve(const StepOptions& o) {
   const LinearSystem system{m_matrix, m_elements, m_contacts, whole ? &m_whole : nullptr,
                             o.line_search};
   m_preconditioner->update(system);
-  const CgResult result = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance,
-                                             o.cg_max_iterations, m_dx, m_work, radius);
+  const CgResult result = conjugate_gradient(
+      system, *m_preconditioner, m_rhs, {tolerance, o.cg_max_iterations, radius}, m_dx, m_work);
   m_preconditioner->report_iterations(result.since_renewal);
   return result;
 }

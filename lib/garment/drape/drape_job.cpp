@@ -18,27 +18,25 @@ namespace sloper::garment {
 namespace {
 
 /// Parts the outermost garment from those under it.
-void take_off(Garment& garment, std::vector<Garment>& under) {
-  garment = std::move(under.back());
-  under.pop_back();
+void take_off(const Outfit& outfit) {
+  outfit.garment = std::move(outfit.under.back());
+  outfit.under.pop_back();
 }
 
-/// @param moves  null for none
-DrapeReport drape_over(Garment& garment, std::vector<Garment>& under, const body::Body* body,
-                       const DrapeSettings& settings, Reporter& reporter,
-                       const Checkpoints& checkpoints, const BodyMoves* moves = nullptr,
-                       const OnMotionFrame& on_frame = {}) {
-  under.push_back(std::move(garment));
-  DrapeReport report = drape_layers(under, body, settings, reporter, checkpoints, moves, on_frame);
-  take_off(garment, under);
+DrapeReport drape_over(const Outfit& outfit, const body::Body* body, const DrapeSettings& settings,
+                       Reporter& reporter, const Checkpoints& checkpoints,
+                       const FollowedMotion& motion = {}) {
+  outfit.under.push_back(std::move(outfit.garment));
+  DrapeReport report = drape_layers(outfit.under, body, settings, reporter, checkpoints, motion);
+  take_off(outfit);
   return report;
 }
 
-DrapeReport resume_over(const DrapeCheckpoint& c, Garment& garment, std::vector<Garment>& under,
-                        const body::Body* body, Reporter& reporter, const Checkpoints& checkpoints,
-                        const BodyMoves* moves = nullptr, const OnMotionFrame& on_frame = {}) {
-  DrapeReport report = resume_layers(c, under, body, reporter, checkpoints, moves, on_frame);
-  take_off(garment, under);
+DrapeReport resume_over(const DrapeCheckpoint& c, const Outfit& outfit, const body::Body* body,
+                        Reporter& reporter, const Checkpoints& checkpoints,
+                        const FollowedMotion& motion = {}) {
+  DrapeReport report = resume_layers(c, outfit.under, body, reporter, checkpoints, motion);
+  take_off(outfit);
   return report;
 }
 
@@ -51,11 +49,22 @@ public:
       : moves(read_moves(body, job.motion, 1 / fps)),
         m_write(job.frames, "frame of " + generator_stamp(job.tool), stream, done) {}
 
-  /// What writes a frame when it is done. This outlives it.
-  OnMotionFrame writer() {
-    return [this](const MotionFrame& frame, const Garment& garment) { m_write(frame, garment); };
+  /// The motion, and what writes a frame when it is done. This outlives it.
+  FollowedMotion followed() {
+    return {.moves = &moves, .on_frame = [this](const MotionFrame& frame, const Garment& garment) {
+              m_write(frame, garment);
+            }};
   }
-  /// The garment hangs on the last skin from now on.
+  /// The garments hang on the last skin from now on.
+  void leave(const Outfit& outfit) const {
+    leave(outfit.garment);
+    for (Garment& garment : outfit.under)
+      leave(garment);
+  }
+
+  const BodyMoves moves;
+
+private:
   void leave(Garment& garment) const {
     garment.body_sha256.clear();
     if (moves.end)
@@ -64,33 +73,27 @@ public:
       garment.bind = {};
   }
 
-  const BodyMoves moves;
-
-private:
   FrameWriter m_write;
 };
 
-DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, std::vector<Garment>& under,
-                              const body::Body& body, const DrapeSettings& settings,
-                              std::ostream& stream, Reporter& reporter) {
+DrapeReport drape_with_motion(const DrapeJob& job, const Outfit& outfit, const body::Body& body,
+                              const DrapeSettings& settings, std::ostream& stream,
+                              Reporter& reporter) {
   Checkpoints checkpoints = job.checkpoints;
   if (!checkpoints.file.empty())
     checkpoints.motion = {motion_sha256(job.motion), job.motion_fps};
   MovingJob moving(job, body, job.motion_fps, 0, stream);
-  DrapeReport report = under.empty()
-                           ? drape_in_motion(garment, body, moving.moves, settings, moving.writer(),
-                                             reporter, {.checkpoints = checkpoints})
-                           : drape_over(garment, under, &body, settings, reporter, checkpoints,
-                                        &moving.moves, moving.writer());
-  moving.leave(garment);
-  for (Garment& g : under)
-    moving.leave(g);
+  const FollowedMotion motion = moving.followed();
+  DrapeReport report = outfit.under.empty()
+                           ? drape_in_motion(outfit.garment, body, settings, motion, reporter,
+                                             {.checkpoints = checkpoints})
+                           : drape_over(outfit, &body, settings, reporter, checkpoints, motion);
+  moving.leave(outfit);
   return report;
 }
 
-DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment,
-                               std::vector<Garment>& under, const body::Body& body,
-                               std::ostream& stream, Reporter& reporter) {
+DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, const Outfit& outfit,
+                               const body::Body& body, std::ostream& stream, Reporter& reporter) {
   if (job.motion.empty())
     throw input_error("checkpoint.other-run"_id, c.file, "",
                       "this drape began with a motion of the body",
@@ -100,13 +103,11 @@ DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Ga
                       "is not the motion with which this drape began",
                       "give the same --motion as before");
   MovingJob moving(job, body, c.motion->fps, c.state.move.frame, stream);
-  DrapeReport report = c.layers ? resume_over(c, garment, under, &body, reporter, job.checkpoints,
-                                              &moving.moves, moving.writer())
-                                : resume_in_motion(c, garment, body, moving.moves, moving.writer(),
-                                                   reporter, job.checkpoints);
-  moving.leave(garment);
-  for (Garment& g : under)
-    moving.leave(g);
+  const FollowedMotion motion = moving.followed();
+  DrapeReport report =
+      c.layers ? resume_over(c, outfit, &body, reporter, job.checkpoints, motion)
+               : resume_in_motion(c, outfit.garment, body, motion, reporter, job.checkpoints);
+  moving.leave(outfit);
   return report;
 }
 
@@ -152,18 +153,19 @@ DrapeOutcome drape_towards(const DrapeJob& job, Garment& garment, const body::Bo
 
 } // namespace
 
-DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment>& under,
-                      const body::Body* body, const DrapeSettings& settings, std::ostream& stream,
-                      Reporter& reporter) {
-  if (under.empty() && job.goal)
+DrapeOutcome do_drape(const DrapeJob& job, const Outfit& outfit, const body::Body* body,
+                      const DrapeSettings& settings, std::ostream& stream, Reporter& reporter) {
+  Garment& garment = outfit.garment;
+  const bool alone = outfit.under.empty();
+  if (alone && job.goal)
     return drape_towards(job, garment, body, reporter);
-  if (under.empty() && !job.follow.empty())
+  if (alone && !job.follow.empty())
     return follow_edits(job, garment, body, settings, stream, reporter);
   DrapeReport report = [&] {
     if (!job.motion.empty())
-      return drape_with_motion(job, garment, under, *body, settings, stream, reporter);
-    if (!under.empty())
-      return drape_over(garment, under, body, settings, reporter, job.checkpoints);
+      return drape_with_motion(job, outfit, *body, settings, stream, reporter);
+    if (!alone)
+      return drape_over(outfit, body, settings, reporter, job.checkpoints);
     if (job.untangle_only)
       return untangle_only(garment, body, settings, reporter);
     return drape(garment, body, settings, reporter, {.checkpoints = job.checkpoints});
@@ -172,19 +174,18 @@ DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment
   return {std::move(report), std::move(document), 0};
 }
 
-DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment,
-                        std::vector<Garment>& under, const body::Body* body, std::ostream& stream,
-                        Reporter& reporter) {
-  c.check_body(body, garment.body_sha256);
+DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, const Outfit& outfit,
+                        const body::Body* body, std::ostream& stream, Reporter& reporter) {
+  c.check_body(body, outfit.garment.body_sha256);
   if (!c.motion && !job.motion.empty())
     throw input_error("checkpoint.other-run"_id, c.file, "", "this drape began without a motion",
                       "leave --motion out");
   DrapeReport report = [&] {
     if (c.motion)
-      return resume_with_motion(job, c, garment, under, *body, stream, reporter);
+      return resume_with_motion(job, c, outfit, *body, stream, reporter);
     if (c.layers)
-      return resume_over(c, garment, under, body, reporter, job.checkpoints);
-    return resume_drape(c, garment, body, reporter, job.checkpoints);
+      return resume_over(c, outfit, body, reporter, job.checkpoints);
+    return resume_drape(c, outfit.garment, body, reporter, job.checkpoints);
   }();
   io::Json document = report_json(report, job.tool);
   return {std::move(report), std::move(document), 0};

@@ -26,10 +26,9 @@ public:
   /// @param at  where it stands   @param from  the checkpoint that its present drape goes on from,
   /// or null
   LayeredDrape(LayersProgress& at, const DrapeCheckpoint* from, const body::Body* body,
-               Reporter& reporter, const Checkpoints& checkpoints, const BodyMoves* moves,
-               const OnMotionFrame& on_frame)
+               Reporter& reporter, const Checkpoints& checkpoints, const FollowedMotion& motion)
       : m_at(at), m_from(from), m_body(body), m_reporter(reporter), m_checkpoints(checkpoints),
-        m_moves(moves), m_on_frame(on_frame) {
+        m_motion(motion) {
     if (!body || body->skin.triangles.empty())
       throw input_error("drape.no-body"_id, "", "layers", "layer order needs a body",
                         "give --body body.json");
@@ -52,7 +51,7 @@ private:
     const SessionInputs inputs{.garment = garment,
                                .body = m_body,
                                .moves = moves,
-                               .on_frame = m_on_frame,
+                               .on_frame = m_motion.on_frame,
                                .request = {.checkpoints = m_checkpoints, .start = start}};
     if (!m_from) {
       if (settings.levels > 1 && garment.particle_of.empty())
@@ -96,14 +95,15 @@ private:
       start.relax_first = static_cast<double>(order.tucked) >
                           MUCH_TUCKED * static_cast<double>(merged.position.size());
     }
-    DrapeReport report = drape_one(merged, m_at.settings, m_moves, start);
+    DrapeReport report = drape_one(merged, m_at.settings, m_motion.moves, start);
     split_layers(merged, m_at.garments);
     report.repairs.insert(report.repairs.begin(), m_at.repairs.begin(), m_at.repairs.end());
     report.phases.insert(report.phases.begin(), {"garments alone", m_at.alone_s});
     report.wall_s += m_at.alone_s;
-    const std::size_t frames = m_moves ? report.quality["motion"]["frames"].get<std::size_t>() : 0;
+    const std::size_t frames =
+        m_motion.moves ? report.quality["motion"]["frames"].get<std::size_t>() : 0;
     if (frames > 0)
-      collider.set_positions(m_moves->skin(frames - 1));
+      collider.set_positions(m_motion.moves->skin(frames - 1));
     report.quality["layers"] = layers_json(collider);
     return report;
   }
@@ -140,39 +140,36 @@ private:
   const body::Body* m_body;
   Reporter& m_reporter;
   Checkpoints m_checkpoints;
-  const BodyMoves* m_moves;
-  const OnMotionFrame& m_on_frame;
+  const FollowedMotion& m_motion;
 };
 
 } // namespace
 
 DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body,
                          const DrapeSettings& settings, Reporter& reporter,
-                         const Checkpoints& checkpoints, const BodyMoves* moves,
-                         const OnMotionFrame& on_frame) {
+                         const Checkpoints& checkpoints, const FollowedMotion& motion) {
   LayersProgress at{settings, garments, 0, {}, 0};
   Checkpoints taken = checkpoints;
-  if (moves && !taken.motion)
-    taken.motion = moves->input(); // while one is alone too
-  DrapeReport report = LayeredDrape(at, nullptr, body, reporter, taken, moves, on_frame).run();
+  if (motion.moves && !taken.motion)
+    taken.motion = motion.moves->input(); // while one is alone too
+  DrapeReport report = LayeredDrape(at, nullptr, body, reporter, taken, motion).run();
   garments = std::move(at.garments);
   return report;
 }
 
 DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment>& garments,
                           const body::Body* body, Reporter& reporter,
-                          const Checkpoints& checkpoints, const BodyMoves* moves,
-                          const OnMotionFrame& on_frame) {
+                          const Checkpoints& checkpoints, const FollowedMotion& motion) {
   if (!checkpoint.layers)
     throw input_error("checkpoint.other-run"_id, checkpoint.file, "",
                       "is of a run without garments over each other");
-  checkpoint.check_moves(moves);
+  checkpoint.check_moves(motion.moves);
   LayersProgress at = *checkpoint.layers;
   Checkpoints taken = checkpoints;
   taken.renew = true;
   taken.every_steps = checkpoint.every_steps;
   taken.motion = checkpoint.motion;
-  DrapeReport report = LayeredDrape(at, &checkpoint, body, reporter, taken, moves, on_frame).run();
+  DrapeReport report = LayeredDrape(at, &checkpoint, body, reporter, taken, motion).run();
   garments = std::move(at.garments);
   return report;
 }

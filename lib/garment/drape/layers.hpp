@@ -16,23 +16,23 @@ namespace sloper::garment {
 /// draped alone first
 /// @return of the joint drape; `quality.layers`: for each garment its strain, what of it is in the
 /// body, and its order violations
-/// @param checkpoints  as for drape()   @param moves  null, or the motion that follows once they
-/// are at rest, as in drape_in_motion()
-/// @param on_frame  after each of its frames, with all garments as merge_layers() joins them
+/// @param checkpoints  as for drape()
+/// @param motion  followed once they are at rest, as in drape_in_motion(); its frames show all
+/// garments as merge_layers() joins them
 /// @throws Error INPUT without a body, or as drape()
 DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body,
                          const DrapeSettings& settings, Reporter& reporter,
-                         const Checkpoints& checkpoints = {}, const BodyMoves* moves = nullptr,
-                         const OnMotionFrame& on_frame = {});
+                         const Checkpoints& checkpoints = {}, const FollowedMotion& motion = {});
 
-/// Goes on from a checkpoint of drape_layers() to the same bytes. @param garments  out: from the
-/// skin outwards   @param body  the one that the run began with   @param checkpoints  as for
-/// resume_drape()   @param moves, on_frame  as for resume_in_motion(), where the run was in motion
+/// Goes on from a checkpoint of drape_layers() to the same bytes.
+/// @param garments  out: from the skin outwards
+/// @param body  the one that the run began with
+/// @param checkpoints  as for resume_drape()
+/// @param motion  as for resume_in_motion(), where the run was in motion
 /// @throws Error INPUT for a checkpoint without layers, without a body, or without the motion that
 /// the run began with
 DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment>& garments,
                           const body::Body* body, Reporter& reporter,
-                          const Checkpoints& checkpoints = {}, const BodyMoves* moves = nullptr,
-                          const OnMotionFrame& on_frame = {});
+                          const Checkpoints& checkpoints = {}, const FollowedMotion& motion = {});
 
 } // namespace sloper::garment

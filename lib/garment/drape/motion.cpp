@@ -24,13 +24,16 @@ DrapeReport go_on_in_motion(DrapeReport rest, SessionInputs inputs, const DrapeS
 
 } // namespace
 
-DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves,
-                            const DrapeSettings& settings, const OnMotionFrame& on_frame,
-                            Reporter& reporter, const DrapeRequest& request) {
-  SessionInputs inputs{
-      .garment = garment, .body = &body, .moves = &moves, .on_frame = on_frame, .request = request};
+DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const DrapeSettings& settings,
+                            const FollowedMotion& motion, Reporter& reporter,
+                            const DrapeRequest& request) {
+  SessionInputs inputs{.garment = garment,
+                       .body = &body,
+                       .moves = motion.moves,
+                       .on_frame = motion.on_frame,
+                       .request = request};
   if (!inputs.request.checkpoints.motion)
-    inputs.request.checkpoints.motion = moves.input();
+    inputs.request.checkpoints.motion = motion.moves->input();
   const bool through_levels = settings.levels > 1 && garment.particle_of.empty() &&
                               refusal_of_levels(garment, &body, settings).empty();
   if (!through_levels)
@@ -40,18 +43,18 @@ DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const Body
 }
 
 DrapeReport resume_in_motion(const DrapeCheckpoint& from, Garment& garment, const body::Body& body,
-                             const BodyMoves& moves, const OnMotionFrame& on_frame,
-                             Reporter& reporter, const Checkpoints& checkpoints) {
+                             const FollowedMotion& motion, Reporter& reporter,
+                             const Checkpoints& checkpoints) {
   SessionInputs inputs{.garment = garment,
                        .body = &body,
-                       .moves = &moves,
-                       .on_frame = on_frame,
+                       .moves = motion.moves,
+                       .on_frame = motion.on_frame,
                        .request = {.checkpoints = checkpoints}};
   inputs.request.checkpoints.motion = from.motion;
   if (!from.levels)
     return DrapeSession(inputs, from, reporter).run();
   if (!from.levels->rung.empty()) {
-    from.check_moves(&moves);
+    from.check_moves(motion.moves);
     DrapeReport rest = resume_through_levels(from, garment, &body, reporter, checkpoints);
     inputs.request.bounds = from.bounds;
     inputs.request.checkpoints.renew = true;

@@ -12,22 +12,23 @@ namespace sloper::garment {
 /// frames cost no step. `quality.motion`: frames, lead_in, simulated_s, parts, forced_frames,
 /// asleep_frames, largest_way_m (of skin in one frame), ms_per_frame, and frames and counts with
 /// faces through the body, vertices inside it and self intersections.
-/// @param on_frame  after each frame; may be empty
+/// @param motion  with moves
 /// @param request  as for drape(); while the body moves, checkpoints are taken between two frames,
 /// where so many of its parts have passed
-DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves,
-                            const DrapeSettings& settings, const OnMotionFrame& on_frame,
-                            Reporter& reporter, const DrapeRequest& request = {});
+DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const DrapeSettings& settings,
+                            const FollowedMotion& motion, Reporter& reporter,
+                            const DrapeRequest& request = {});
 
 struct DrapeCheckpoint;
-/// Goes on from a checkpoint of drape_in_motion() to the same bytes. @param garment  out   @param
-/// body, moves  those that the run began with, for whose identity the caller answers   @param
-/// on_frame  for the frames still to come: after DrapeState::move.frame
-/// @param checkpoints  as for resume_drape()   @throws Error INPUT for a checkpoint without motion,
+/// Goes on from a checkpoint of drape_in_motion() to the same bytes.
+/// @param garment  out
+/// @param body, motion  those that the run began with, for whose identity the caller answers;
+/// motion.on_frame sees the frames still to come: after DrapeState::move.frame
+/// @param checkpoints  as for resume_drape()
+/// @throws Error INPUT for a checkpoint without motion,
 /// or whose frames the motion does not have
 DrapeReport resume_in_motion(const DrapeCheckpoint& checkpoint, Garment& garment,
-                             const body::Body& body, const BodyMoves& moves,
-                             const OnMotionFrame& on_frame, Reporter& reporter,
-                             const Checkpoints& checkpoints = {});
+                             const body::Body& body, const FollowedMotion& motion,
+                             Reporter& reporter, const Checkpoints& checkpoints = {});
 
 } // namespace sloper::garment

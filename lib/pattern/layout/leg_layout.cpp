@@ -125,13 +125,12 @@ std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph,
 }
 
 std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>& roles,
-                             const std::vector<PanelSpot>& spots,
-                             const std::vector<std::size_t>& panels, bool left, double top,
-                             double step, std::size_t n) {
-  std::vector<LegRow> rows(n);
-  for (std::size_t p : panels) {
+                             const std::vector<PanelSpot>& spots, const LegGrid& grid) {
+  std::vector<LegRow> rows(grid.n_rows);
+  const auto row_at = [&](double height) { return (grid.top_m - height) / grid.step_m; };
+  for (std::size_t p : grid.panels) {
     const Side side = roles[p].side;
-    const double sign = (left ? 1 : -1) * (side == Side::BACK ? -1 : 1);
+    const double sign = (grid.left ? 1 : -1) * (side == Side::BACK ? -1 : 1);
     auto span = &LegRow::ring;
     if (side == Side::FRONT)
       span = &LegRow::front;
@@ -139,7 +138,7 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
       span = &LegRow::back;
     const auto& outline = mesh.panels[p].outline;
     const auto take = [&](double row, double t) {
-      if (row < -0.5 || row > static_cast<double>(n) - 0.5)
+      if (row < -0.5 || row > static_cast<double>(grid.n_rows) - 0.5)
         return;
       LegRow::Span& s = rows[static_cast<std::size_t>(std::lround(row))].*span;
       s.in = std::min(s.in, t);
@@ -148,7 +147,7 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const Vec2 a = laid(mesh, roles[p], spots[p], outline[k]),
                  b = laid(mesh, roles[p], spots[p], outline[(k + 1) % outline.size()]);
-      const double ra = (top - a.y()) / step, rb = (top - b.y()) / step;
+      const double ra = row_at(a.y()), rb = row_at(b.y());
       for (double row = std::ceil(std::min(ra, rb));
            row <= std::floor(std::max(ra, rb)) && std::abs(ra - rb) > 1e-12; ++row)
         take(row, sign * (a.x() + (row - ra) / (rb - ra) * (b.x() - a.x())));
@@ -157,8 +156,8 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
   for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring})
     bridge(rows, span);
   for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) {
-    carry_on(rows, span, step, true);
-    carry_on(rows, span, step, false);
+    carry_on(rows, span, grid.step_m, true);
+    carry_on(rows, span, grid.step_m, false);
   }
   return rows;
 }

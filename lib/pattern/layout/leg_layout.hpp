@@ -18,11 +18,18 @@ std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph,
                                 const std::vector<PanelRole>& roles,
                                 const std::vector<PanelSpot>& spots);
 
-/// What the panels of one leg cover on level rows from `top` down, `step` apart; see LegRow.
-/// Slanting ends (waist, hem) count as if the sides went on.
+/// The panels of one leg, and the level rows on which leg_rows() looks at them.
+struct LegGrid {
+  const std::vector<std::size_t>& panels;
+  bool left = false;
+  double top_m = 0;  ///< height of the first row
+  double step_m = 0; ///< from a row down to the next
+  std::size_t n_rows = 0;
+};
+
+/// What the panels of a leg cover on each row; see LegRow. Slanting ends (waist, hem) count as if
+/// the sides went on.
 std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>& roles,
-                             const std::vector<PanelSpot>& spots,
-                             const std::vector<std::size_t>& panels, bool left, double top,
-                             double step, std::size_t n);
+                             const std::vector<PanelSpot>& spots, const LegGrid& grid);
 
 } // namespace sloper::pattern

@@ -420,8 +420,9 @@ void Placer::place_leg(const PanelGroup& group) {
     const double v = top - LEG_ROW * static_cast<double>(k);
     heights.push_back(v > from ? top - rise * (top - v) : crotch - leg * (from - v));
   }
-  tube->shape(heights, leg_rows(m_mesh, m_roles, m_spots, group.panels, left, b[1].y(), LEG_ROW, n),
-              GAP + group.extra);
+  const LegGrid grid{
+      .panels = group.panels, .left = left, .top_m = top, .step_m = LEG_ROW, .n_rows = n};
+  tube->shape(heights, leg_rows(m_mesh, m_roles, m_spots, grid), GAP + group.extra);
   for (std::size_t k : group.panels) {
     const Side side = m_roles[k].side;
     const double sign = (left ? 1 : -1) * (side == Side::BACK ? -1 : 1);

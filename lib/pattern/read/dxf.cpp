@@ -8,6 +8,7 @@
 #include <pattern/read/dxf_rings.hpp>
 #include <pattern/read/dxf_sewing.hpp>
 #include <pattern/read/outline_json.hpp>
+#include <pattern/read/piece_fold.hpp>
 #include <pattern/read/piece_notes.hpp>
 #include <pattern/read/ring_repair.hpp>
 #include <sloper/base/units.hpp>
@@ -22,35 +23,6 @@
 
 namespace sloper::pattern {
 namespace {
-
-double distance_to_path(const Path& path, const Vec2& p) {
-  double best = 1e300;
-  for (const Segment& s : path) {
-    const Vec2 along = s.p[3] - s.p[0];
-    const double t = along.squaredNorm() > 0
-                         ? std::clamp((p - s.p[0]).dot(along) / along.squaredNorm(), 0.0, 1.0)
-                         : 0.0;
-    best = std::min(best, (p - s.p[0] - t * along).norm());
-  }
-  return best;
-}
-
-/// The panel edge nearest to p by distance to its middle part, so that a text set at a corner by
-/// rounding finds its own run.
-int edge_near(const Panel& panel, const Vec2& p) {
-  int best = -1;
-  double least = 1e300;
-  for (int k = 0; k < panel.n_edges(); ++k) {
-    const double to_curve = distance_to_path(panel.edge(k).path, p);
-    const ArcLength arc(panel.edge(k).path);
-    const double score = to_curve + 1e-3 * (arc.at(0.5 * arc.length()) - p).norm();
-    if (score < least) {
-      least = score;
-      best = k;
-    }
-  }
-  return best;
-}
 
 class PieceReader {
 public:
@@ -373,14 +345,14 @@ private:
     int fold = -1;
     for (const DxfLine& line : block.lines)
       if (line.layer == 6 && line.points.size() >= 2)
-        fold = fold_edge(panel, line);
+        fold = fold_edge(panel, line.points, m_unit, m_pattern.findings);
     // Notches and seams are fractions of edges, so the outline may move under them.
     grade(block, ring, panel.name);
     const std::vector<PanelEdge> graded = edges_of(ring, corners, "edge");
     for (std::size_t k = 0; k < graded.size(); ++k)
       panel.loops[0][k].path = graded[k].path;
     if (fold >= 0)
-      open_fold(panel, fold);
+      open_fold(panel, fold, m_sewing.texts_of(std::ssize(m_pattern.panels)), m_pattern.findings);
     const bool alike = fold >= 0 || is_symmetric(ring);
     m_pattern.panels.push_back(std::move(panel));
     m_why_out.push_back(reason_to_leave(block, notes, ring, m_any_wanted));
@@ -454,46 +426,6 @@ private:
       if (off > LINE_ON_EDGE && length(mark.path) > SHORTEST)
         panel.lines.push_back(std::move(mark));
     }
-  }
-
-  /// The edge that a mirror line lies on, or -1.
-  int fold_edge(const Panel& panel, const DxfLine& line) {
-    const Vec2 middle = 0.5 * (line.points.front() + line.points.back()) * m_unit;
-    const int e = edge_near(panel, middle);
-    if (e < std::ssize(panel.loops[0]) && distance_to_path(panel.edge(e).path, middle) < 1e-3)
-      return e;
-    m_pattern.findings.push_back(
-        {"dxf.mirror-line"_id,
-         panel.name + ": its mirror line is not on a straight edge; the piece is taken as whole"});
-    return -1;
-  }
-
-  /// Notches of the other half are their mirror images; runs sewn on the drawn half keep their
-  /// edges.
-  void open_fold(Panel& panel, int fold) {
-    std::vector<std::pair<std::string, Notch>> notches;
-    for (const Notch& n : panel.notches)
-      notches.push_back({panel.edge(n.edge).name, n});
-    const int index = std::ssize(m_pattern.panels);
-    std::vector<std::pair<DxfSewing::Text*, std::string>> sewn;
-    for (DxfSewing::Text* t : m_sewing.texts_of(index))
-      sewn.push_back({t, panel.edge(t->edge).name});
-    if (!unfold(panel, fold, "", "_mirror")) {
-      m_pattern.findings.push_back(
-          {"dxf.mirror-line"_id,
-           panel.name +
-               ": its mirror line is not on a straight edge; the piece is taken as whole"});
-      return;
-    }
-    for (auto& [text, name] : sewn)
-      text->edge = panel.find_edge(name);
-    panel.notches.clear();
-    for (const auto& [name, notch] : notches)
-      for (const bool mirror : {false, true})
-        if (const int e = panel.find_edge(mirror ? name + "_mirror" : name); e >= 0)
-          panel.notches.push_back({e, mirror ? 1 - notch.at : notch.at, notch.kind});
-    m_pattern.findings.push_back(
-        {"dxf.unfolded"_id, panel.name + ": a half piece, unfolded about its mirror line"});
   }
 
   void read_sewing(const DxfBlock& block, Panel& panel, int index) {

@@ -90,7 +90,7 @@ std::vector<int> solve_in_turn(const Cloth& cloth, bool recurs, std::vector<Vec3
     for (std::size_t i = 0; i < tilted.size(); ++i)
       tilted[i].x() = 0.05 * k * tilted[i].y() * std::cos(10 * cloth.grid.x[i].z());
     aggregation.update(system);
-    const CgResult r = conjugate_gradient(system, aggregation, tilted, 1e-3, 2000, x, work);
+    const CgResult r = conjugate_gradient(system, aggregation, tilted, {1e-3, 2000}, x, work);
     EXPECT_TRUE(r.converged);
     EXPECT_LT(r.residual, 1.01e-3);
     iterations.push_back(r.iterations);
@@ -178,10 +178,11 @@ TEST(Deflation, a_start_beyond_the_radius_is_not_taken) {
   aggregation.update(system);
   CgWork work;
   std::vector<Vec3> x;
-  ASSERT_TRUE(conjugate_gradient(system, aggregation, cloth.weight, 1e-4, 2000, x, work).converged);
+  ASSERT_TRUE(
+      conjugate_gradient(system, aggregation, cloth.weight, {1e-4, 2000}, x, work).converged);
   const double radius = 1e-3;
   const CgResult bounded =
-      conjugate_gradient(system, aggregation, cloth.weight, 1e-4, 2000, x, work, radius);
+      conjugate_gradient(system, aggregation, cloth.weight, {1e-4, 2000, radius}, x, work);
   EXPECT_TRUE(bounded.bounded);
   for (const Vec3& v : x)
     EXPECT_LT(v.norm(), (1 + 1e-6) * radius);

@@ -177,7 +177,7 @@ CgResult solve_with(const LinearSystem& system, const std::vector<Vec3>& rhs, do
   Preconditioner preconditioner;
   preconditioner.update(system);
   CgWork work;
-  return conjugate_gradient(system, preconditioner, rhs, tolerance, 5000, x, work);
+  return conjugate_gradient(system, preconditioner, rhs, {tolerance, 5000}, x, work);
 }
 
 TEST(Aggregation, solves_the_same_system_as_block_jacobi_in_far_fewer_iterations) {
@@ -210,7 +210,7 @@ TEST(ConjugateGradient, what_the_work_vectors_hold_does_not_matter) {
   for (auto* v : {&work.r, &work.z, &work.p, &work.q})
     v->assign(s.rhs.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   std::vector<Vec3> x;
-  EXPECT_TRUE(conjugate_gradient(system, preconditioner, s.rhs, 1e-6, 5000, x, work).converged);
+  EXPECT_TRUE(conjugate_gradient(system, preconditioner, s.rhs, {1e-6, 5000}, x, work).converged);
 }
 
 TEST(Factorisation, solves_the_same_system_contacts_too_at_once) {
@@ -256,7 +256,7 @@ TEST(Aggregation, particles_that_contacts_all_but_pin_do_not_fill_the_coarse_lev
   EXPECT_LT(aggregation.complexity(), 2); // 3.2 when each of them is an aggregate
   std::vector<Vec3> x;
   CgWork work;
-  EXPECT_TRUE(conjugate_gradient(system, aggregation, s.rhs, 1e-6, 300, x, work).converged);
+  EXPECT_TRUE(conjugate_gradient(system, aggregation, s.rhs, {1e-6, 300}, x, work).converged);
 }
 
 TEST(Aggregation, iterations_hardly_grow_with_the_mesh) {
@@ -271,7 +271,7 @@ TEST(Aggregation, iterations_hardly_grow_with_the_mesh) {
     std::vector<Vec3> x;
     Aggregation aggregation;
     aggregation.update(system);
-    const CgResult r = conjugate_gradient(system, aggregation, s.rhs, 1e-3, 5000, x, work);
+    const CgResult r = conjugate_gradient(system, aggregation, s.rhs, {1e-3, 5000}, x, work);
     ASSERT_TRUE(r.converged);
     iterations[at++] = r.iterations;
   }
@@ -289,11 +289,10 @@ TEST(Aggregation, solves_in_double_what_single_precision_takes_for_an_indefinite
   aggregation.update(system);
   std::vector<Vec3> x(s.rhs.size());
   CgResult single;
-  EXPECT_TRUE(aggregation.solve_in_single(system, s.rhs, 1e-3, 1000,
-                                          std::numeric_limits<double>::infinity(), x, single));
+  EXPECT_TRUE(aggregation.solve_in_single(system, s.rhs, {1e-3, 1000}, x, single));
   EXPECT_TRUE(single.indefinite);
   CgWork work;
-  const CgResult both = conjugate_gradient(system, aggregation, s.rhs, 1e-3, 1000, x, work);
+  const CgResult both = conjugate_gradient(system, aggregation, s.rhs, {1e-3, 1000}, x, work);
   EXPECT_TRUE(both.converged);
   EXPECT_FALSE(both.indefinite);
 }
@@ -323,7 +322,7 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
       CgWork work;
       std::vector<Vec3> x;
       const CgResult r =
-          conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work, radius);
+          conjugate_gradient(*system, *preconditioner, s.rhs, {1e-6, 1000, radius}, x, work);
       EXPECT_TRUE(r.bounded);
       EXPECT_FALSE(r.converged);
       EXPECT_LT(longest(x), (1 + 1e-6) * radius);
@@ -333,7 +332,7 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
         falls += x[i].dot(s.rhs[i]);
       EXPECT_GT(falls, 0);
       const CgResult free =
-          conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work);
+          conjugate_gradient(*system, *preconditioner, s.rhs, {1e-6, 1000}, x, work);
       EXPECT_EQ(free.converged, system == &definite);
       EXPECT_EQ(free.indefinite, system == &indefinite);
     }
@@ -349,7 +348,7 @@ TEST(ConjugateGradient, ends_at_a_share_of_the_error_in_the_energy_norm) {
   aggregation.update(system);
   std::vector<Vec3> exact, x, product(s.rhs.size());
   std::vector<double> part;
-  ASSERT_TRUE(conjugate_gradient(system, aggregation, s.rhs, 1e-9, 5000, exact, work).converged);
+  ASSERT_TRUE(conjugate_gradient(system, aggregation, s.rhs, {1e-9, 5000}, exact, work).converged);
   const auto error = [&](const std::vector<Vec3>& at) { // in the energy norm
     std::vector<Vec3> off(exact);
     for (std::size_t i = 0; i < at.size(); ++i)
@@ -357,19 +356,19 @@ TEST(ConjugateGradient, ends_at_a_share_of_the_error_in_the_energy_norm) {
     return std::sqrt(system.multiply(off, product, work.pull, part));
   };
   const double all = error(std::vector<Vec3>(exact.size(), Vec3::Zero()));
-  const CgResult r = conjugate_gradient(system, aggregation, s.rhs, {1e-9, 0.1}, 5000, x, work);
+  const CgResult r = conjugate_gradient(system, aggregation, s.rhs, {{1e-9, 0.1}, 5000}, x, work);
   EXPECT_TRUE(r.near);
   EXPECT_TRUE(r.converged);
   EXPECT_GT(r.residual, 1e-6);
   EXPECT_LT(error(x), 0.3 * all);
   EXPECT_GT(error(x), 0.01 * all);
-  const CgResult by_residual = conjugate_gradient(system, aggregation, s.rhs, {0.5, 1e-9}, 5000, x,
-                                                  work); // whichever is reached first
+  const CgResult by_residual = conjugate_gradient(system, aggregation, s.rhs, {{0.5, 1e-9}, 5000},
+                                                  x, work); // whichever is reached first
   EXPECT_FALSE(by_residual.near);
   EXPECT_LE(by_residual.residual, 0.5);
   BlockJacobi jacobi; // cannot tell what is soft
   jacobi.update(system);
-  const CgResult blind = conjugate_gradient(system, jacobi, s.rhs, {1e-6, 0.1}, 5000, x, work);
+  const CgResult blind = conjugate_gradient(system, jacobi, s.rhs, {{1e-6, 0.1}, 5000}, x, work);
   EXPECT_FALSE(blind.near);
   EXPECT_LE(blind.residual, 1e-6);
 }
@@ -387,7 +386,8 @@ TEST(ConjugateGradient, cut_short_keeps_what_it_has_though_the_residual_grew) {
   for (int iterations = 1; iterations <= 12; ++iterations) {
     Aggregation aggregation;
     aggregation.update(system);
-    grew += conjugate_gradient(system, aggregation, s.rhs, 1e-9, iterations, x, work).residual > 1;
+    grew +=
+        conjugate_gradient(system, aggregation, s.rhs, {1e-9, iterations}, x, work).residual > 1;
     double energy = 0.5 * system.multiply(x, product, work.pull, part);
     for (std::size_t i = 0; i < x.size(); ++i)
       energy -= x[i].dot(s.rhs[i]);
@@ -416,8 +416,8 @@ struct RoundedSpace {
 TEST(ConjugateGradient, does_not_take_what_rounding_leaves_for_near) {
   for (double energy : {0.0, 0.1}) {
     CgResult result;
-    const double left2 = conjugate_gradient_loop(RoundedSpace{}, 1, 1e-8, energy, 100,
-                                                 std::numeric_limits<double>::infinity(), result);
+    const double left2 =
+        conjugate_gradient_loop(RoundedSpace{}, 1, 1e-8, {{0, energy}, 100}, result);
     EXPECT_EQ(left2, 0.5);
     EXPECT_EQ(result.iterations, 1);
     EXPECT_FALSE(result.near) << energy;
@@ -435,7 +435,7 @@ TEST(ConjugateGradient, stops_at_an_indefinite_matrix_and_keeps_what_it_has) {
   jacobi.update(system);
   CgWork work;
   std::vector<Vec3> x;
-  const CgResult r = conjugate_gradient(system, jacobi, {Vec3(1, 0, 0)}, 1e-6, 10, x, work);
+  const CgResult r = conjugate_gradient(system, jacobi, {Vec3(1, 0, 0)}, {1e-6, 10}, x, work);
   EXPECT_TRUE(r.indefinite);
   EXPECT_TRUE(x[0].allFinite());
 }

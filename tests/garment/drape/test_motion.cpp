@@ -17,23 +17,25 @@ TEST(Motion, a_skirt_on_a_swinging_body_is_clean_in_every_frame_and_at_rest_at_t
   double farthest = 0;
   BodyMoves moves = swinging(pillar, 15, 0.15); // up to 0.94 m/s
   moves.lead_in = 4;
-  const DrapeReport report = drape_in_motion(
-      skirt, pillar, moves, {},
-      [&](const MotionFrame& f, const Garment& g) {
-        EXPECT_EQ(f.number, ++frames);
-        EXPECT_EQ(f.pose, std::max(0, frames - 4));
-        EXPECT_EQ(f.faces_through, 0U) << f.number;
-        EXPECT_EQ(f.vertices_inside, 0U) << f.number;
-        EXPECT_EQ(f.self_intersections, 0U) << f.number;
-        EXPECT_FALSE(f.forced) << f.number;
-        Vec3 sum = Vec3::Zero();
-        for (const Vec3& p : g.position)
-          sum += p / static_cast<double>(g.position.size());
-        if (frames == 1)
-          first = sum;
-        farthest = std::max(farthest, (sum - first).norm());
-      },
-      silent_reporter());
+  const DrapeReport report =
+      drape_in_motion(skirt, pillar, {},
+                      {.moves = &moves,
+                       .on_frame =
+                           [&](const MotionFrame& f, const Garment& g) {
+                             EXPECT_EQ(f.number, ++frames);
+                             EXPECT_EQ(f.pose, std::max(0, frames - 4));
+                             EXPECT_EQ(f.faces_through, 0U) << f.number;
+                             EXPECT_EQ(f.vertices_inside, 0U) << f.number;
+                             EXPECT_EQ(f.self_intersections, 0U) << f.number;
+                             EXPECT_FALSE(f.forced) << f.number;
+                             Vec3 sum = Vec3::Zero();
+                             for (const Vec3& p : g.position)
+                               sum += p / static_cast<double>(g.position.size());
+                             if (frames == 1)
+                               first = sum;
+                             farthest = std::max(farthest, (sum - first).norm());
+                           }},
+                      silent_reporter());
   EXPECT_EQ(frames, 15);
   EXPECT_GT(farthest, 0.08); // the skirt goes with its body
   EXPECT_TRUE(report.converged) << stop_text(report);
@@ -54,10 +56,13 @@ TEST(Motion, steps_may_take_more_solves_and_be_shorter) {
     settings.newton_iterations = newton_iterations;
     settings.motion_step_s = motion_step_s;
     return drape_in_motion(
-        skirt, pillar, moves, settings,
-        [&](const MotionFrame& f, const Garment&) {
-          EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
-        },
+        skirt, pillar, settings,
+        {.moves = &moves,
+         .on_frame =
+             [&](const MotionFrame& f, const Garment&) {
+               EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U)
+                   << f.number;
+             }},
         silent_reporter());
   };
   const DrapeReport one = run(1, 1.0 / 60), more = run(6, 1.0 / 60), shorter = run(1, 1.0 / 240);
@@ -89,22 +94,24 @@ TEST(Motion, cloth_at_rest_sleeps_until_skin_near_it_moves) {
   Garment last;
   int asleep = 0;
   const DrapeReport report = drape_in_motion(
-      skirt, pillar, moves, {},
-      [&](const MotionFrame& f, const Garment& g) {
-        EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
-        const bool still = f.number > 10 && f.number <= 10 + static_cast<int>(n_still);
-        if (!still) {
-          EXPECT_GT(f.parts, 0) << f.number;
-        }
-        if (f.parts == 0) {
-          EXPECT_EQ(g.position, last.position) << f.number;
-          EXPECT_EQ(f.speed_m_s, 0);
-          ++asleep;
-        } else {
-          EXPECT_EQ(asleep > 0 && still, false) << "woke in frame " << f.number;
-        }
-        last = g;
-      },
+      skirt, pillar, {},
+      {.moves = &moves,
+       .on_frame =
+           [&](const MotionFrame& f, const Garment& g) {
+             EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
+             const bool still = f.number > 10 && f.number <= 10 + static_cast<int>(n_still);
+             if (!still) {
+               EXPECT_GT(f.parts, 0) << f.number;
+             }
+             if (f.parts == 0) {
+               EXPECT_EQ(g.position, last.position) << f.number;
+               EXPECT_EQ(f.speed_m_s, 0);
+               ++asleep;
+             } else {
+               EXPECT_EQ(asleep > 0 && still, false) << "woke in frame " << f.number;
+             }
+             last = g;
+           }},
       silent_reporter());
   EXPECT_GT(asleep, 20);
   EXPECT_EQ(report.quality["motion"]["asleep_frames"].get<int>(), asleep);
@@ -130,18 +137,21 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
   };
   long parts = 0;
   drape_in_motion(
-      skirt, pillar, moves, {},
-      [&](const MotionFrame& f, const Garment& g) {
-        EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
-        if (f.number <= 20)
-          parts += f.parts;
-        if (f.number < 50)
-          return;
-        double off2 = 0;
-        for (std::size_t i = 0; i < stood.size(); ++i)
-          off2 += (g.position[i] - stood[i] - Vec3(0, 0, shift_at(f.number - 1))).squaredNorm();
-        EXPECT_LT(std::sqrt(off2 / static_cast<double>(stood.size())), 0.003) << f.number;
-      },
+      skirt, pillar, {},
+      {.moves = &moves,
+       .on_frame =
+           [&](const MotionFrame& f, const Garment& g) {
+             EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
+             if (f.number <= 20)
+               parts += f.parts;
+             if (f.number < 50)
+               return;
+             double off2 = 0;
+             for (std::size_t i = 0; i < stood.size(); ++i)
+               off2 +=
+                   (g.position[i] - stood[i] - Vec3(0, 0, shift_at(f.number - 1))).squaredNorm();
+             EXPECT_LT(std::sqrt(off2 / static_cast<double>(stood.size())), 0.003) << f.number;
+           }},
       silent_reporter());
   EXPECT_LE(parts, 45);
 }
@@ -162,8 +172,10 @@ TEST(Motion, frames_that_are_not_clean_are_no_success) {
   };
   std::size_t through = 0;
   const DrapeReport report = drape_in_motion(
-      skirt, pillar, moves, {},
-      [&](const MotionFrame& f, const Garment&) { through = std::max(through, f.faces_through); },
+      skirt, pillar, {},
+      {.moves = &moves,
+       .on_frame = [&](const MotionFrame& f,
+                       const Garment&) { through = std::max(through, f.faces_through); }},
       silent_reporter());
   ASSERT_GT(through, 0U);
   EXPECT_FALSE(report.converged);
@@ -177,14 +189,14 @@ TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
   const BodyMoves moves = swinging(pillar, 12, 0.15);
   int frames = 0;
   const DrapeReport report =
-      drape_layers(garments, &pillar, {}, silent_reporter(), {}, &moves,
-                   [&](const MotionFrame& f, const Garment& all) {
-                     ++frames;
-                     EXPECT_EQ(all.panels.panels.size(), 4U) << "of both";
-                     EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U)
-                         << f.number;
-                     EXPECT_FALSE(f.forced) << f.number;
-                   });
+      drape_layers(garments, &pillar, {}, silent_reporter(), {},
+                   {&moves, [&](const MotionFrame& f, const Garment& all) {
+                      ++frames;
+                      EXPECT_EQ(all.panels.panels.size(), 4U) << "of both";
+                      EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U)
+                          << f.number;
+                      EXPECT_FALSE(f.forced) << f.number;
+                    }});
   EXPECT_EQ(frames, 12);
   EXPECT_TRUE(report.converged) << stop_text(report);
   EXPECT_TRUE(is_active(report.effects, "body_motion") && is_active(report.effects, "layers"));

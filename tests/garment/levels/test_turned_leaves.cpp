@@ -56,10 +56,11 @@ TEST(TurnedLeaves, a_leaf_beneath_the_front_comes_to_lie_on_it_and_the_front_sta
   const pattern::PanelInfo &front = garment.panels.panels[0], &leaf = garment.panels.panels[1];
   for (int v = 0; v < leaf.first_vertex + leaf.n_vertices; ++v) {
     const auto i = static_cast<std::size_t>(garment.particle_of[v]);
-    if (v < front.n_vertices)
+    if (v < front.n_vertices) {
       EXPECT_EQ(garment.position[i], before[i]);
-    else if (before[i].z() < 0)
+    } else if (before[i].z() < 0) {
       EXPECT_NEAR(garment.position[i].z(), 0.003, 1e-9);
+    }
   }
 }
 

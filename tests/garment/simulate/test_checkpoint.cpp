@@ -262,7 +262,7 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
   };
   const MotionInput walk{"a walk", 30};
   const DrapeReport undisturbed =
-      drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody,
+      drape_in_motion(whole, pillar, {}, {&moves, keep_and_count}, nobody,
                       {.checkpoints = {file("whole.json"), 8, false, walk}});
   EXPECT_TRUE(undisturbed.converged) << stop_text(undisturbed);
   std::set<std::pair<DrapePhase, bool>> places;
@@ -270,7 +270,7 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     Garment killed = start, resumed;
     Killer killer(at);
     std::vector<Frame> before, after;
-    drape_in_motion(killed, pillar, moves, {}, keep(before), killer,
+    drape_in_motion(killed, pillar, {}, {&moves, keep(before)}, killer,
                     {.checkpoints = {file("killed.json"), 8, false, walk}});
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.motion);
@@ -278,7 +278,7 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     places.insert({c.state.phase, c.state.move.over});
     set_thread_count(1 + at % 2);
     const DrapeReport report =
-        resume_in_motion(c, resumed, pillar, moves, keep(after), silent_reporter());
+        resume_in_motion(c, resumed, pillar, {&moves, keep(after)}, silent_reporter());
     set_thread_count(1);
     EXPECT_EQ(text(resumed), text(whole))
         << "killed at " << at << " of " << nobody.asked() << ", frames begin at " << first;
@@ -302,7 +302,7 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
   EXPECT_THROW(resume_drape(file("killed.json"), resumed, &pillar, silent_reporter()), Error)
       << "without the motion";
   moves.n_frames = 0;
-  EXPECT_THROW(resume_in_motion(read_checkpoint(file("killed.json")), resumed, pillar, moves, {},
+  EXPECT_THROW(resume_in_motion(read_checkpoint(file("killed.json")), resumed, pillar, {&moves},
                                 silent_reporter()),
                Error)
       << "with a shorter motion";
@@ -324,22 +324,22 @@ TEST_F(CheckpointTest,
     frames.push_back(g.position);
   };
   const DrapeReport undisturbed =
-      drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 7}, &moves, count);
+      drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 7}, {&moves, count});
   EXPECT_TRUE(undisturbed.converged) << stop_text(undisturbed);
   ASSERT_EQ(frames.size(), 6U);
   std::set<std::pair<std::size_t, DrapePhase>> places;
   for (int at : {60, first - 3, first + 4}) {
     std::vector<Garment> killed = start, resumed;
     Killer killer(at);
-    drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 7}, &moves);
+    drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 7}, {&moves});
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.layers && c.motion);
     EXPECT_EQ(c.motion->fps, 30);
     places.insert({c.layers->alone, c.state.phase});
     std::vector<std::vector<Vec3>> after;
-    const DrapeReport report =
-        resume_layers(c, resumed, &pillar, silent_reporter(), {}, &moves,
-                      [&](const MotionFrame&, const Garment& g) { after.push_back(g.position); });
+    const DrapeReport report = resume_layers(
+        c, resumed, &pillar, silent_reporter(), {},
+        {&moves, [&](const MotionFrame&, const Garment& g) { after.push_back(g.position); }});
     for (std::size_t k = 0; k < 2; ++k)
       EXPECT_EQ(text(resumed[k]), text(whole[k]))
           << "garment " << k << " killed after " << at << " steps";

@@ -52,6 +52,14 @@ struct CgTolerance {
   double energy;
 };
 
+/// Where a solve of A x = b, from x = 0, ends.
+struct CgLimits {
+  CgTolerance tolerance;  ///< of residual or energy
+  int max_iterations = 0; ///< of all rounds together
+  /// m, of the longest vector of three of x (Steihaug 1983).
+  double radius = std::numeric_limits<double>::infinity();
+};
+
 /// z = P^-1 r for a symmetric positive definite P near the system.
 class Preconditioner {
 public:
@@ -73,9 +81,8 @@ public:
   /// precision: conjugate_gradient_loop(), until its recursive residual is within the
   /// tolerance, relative to r, or x at the radius. Adds to the result's iterations.
   /// @return false, with nothing done, for a preconditioner without such a copy
-  virtual bool solve_in_single(const LinearSystem&, const std::vector<Vec3>& /*r*/, CgTolerance,
-                               int /*max_iterations*/, double /*radius*/, std::vector<Vec3>& /*x*/,
-                               CgResult&) {
+  virtual bool solve_in_single(const LinearSystem&, const std::vector<Vec3>& /*r*/, const CgLimits&,
+                               std::vector<Vec3>& /*x*/, CgResult&) {
     return false;
   }
   /// Receives the number of iterations of the last solve since the preconditioner
@@ -98,21 +105,22 @@ private:
 /// The loop of preconditioned conjugate gradients, for vectors of any precision. It ends
 /// where |r|^2 <= target2, where r . z <= energy^2 times its initial value or is not
 /// above 0, at max_iterations of the result, which counts on, at an indefinite matrix, or
-/// where x would get longer than `radius` (Steihaug 1983, with the greatest length of
-/// three for a norm).
+/// where x would get longer than the radius.
 /// @param space  holds the vectors; r is the residual of x, on entry and later.
 /// precondition() sets z = P^-1 r and returns r . z; turn(beta) sets p = z + beta p;
 /// multiply() sets q = A p and returns p . q; advance(alpha) adds alpha p to x and takes
 /// alpha q from r and returns |r|^2; longest_x() and longest_p() are the lengths of their
 /// longest vectors of three; renew(iterations) as in Preconditioner
 /// @param r_norm2  |r|^2 on entry
+/// @param limits  its tolerance of the residual is not used
 /// @return |r|^2
 template<class Space>
-double conjugate_gradient_loop(Space&& space, double r_norm2, double target2, double energy,
-                               int max_iterations, double radius, CgResult& result) {
-  const bool bounded = radius < std::numeric_limits<double>::infinity();
+double conjugate_gradient_loop(Space&& space, double r_norm2, double target2,
+                               const CgLimits& limits, CgResult& result) {
+  const double energy = limits.tolerance.energy;
+  const bool bounded = limits.radius < std::numeric_limits<double>::infinity();
   result.indefinite = result.bounded = result.near = false;
-  if (!(result.iterations < max_iterations && r_norm2 > target2))
+  if (!(result.iterations < limits.max_iterations && r_norm2 > target2))
     return r_norm2;
   double rz = space.precondition();
   const double rz_end = energy * energy * rz;
@@ -124,10 +132,10 @@ double conjugate_gradient_loop(Space&& space, double r_norm2, double target2, do
       break;
     ++result.iterations;
     ++result.since_renewal;
-    const double room = bounded ? (radius - space.longest_x()) / space.longest_p() : 0;
+    const double room = bounded ? (limits.radius - space.longest_x()) / space.longest_p() : 0;
     result.bounded = bounded && !(curvature * room > rz);
     r_norm2 = space.advance(result.bounded ? room : rz / curvature);
-    if (result.bounded || r_norm2 <= target2 || result.iterations >= max_iterations)
+    if (result.bounded || r_norm2 <= target2 || result.iterations >= limits.max_iterations)
       break;
     const bool renewed = space.renew(result.since_renewal);
     if (renewed)
@@ -150,18 +158,16 @@ struct CgWork {
   std::vector<double> part;
 };
 
-/// Solves A x = b from x = 0. Stops within the tolerance, after max_iterations, where the
-/// matrix is not definite, or where a vector of three of x would get longer than the
-/// radius. Preconditioners that solve in single precision do so in rounds whose residual
-/// is taken in double (iterative refinement, Wilkinson 1963), as long as a round halves
-/// it; the rest is done in double. Does not throw.
+/// Solves A x = b from x = 0, until a limit is met or the matrix is not definite. Preconditioners
+/// that solve in single precision do so in rounds whose residual is taken in double (iterative
+/// refinement, Wilkinson 1963), as long as a round halves it; the rest is done in double. Does not
+/// throw.
 /// @param preconditioner  updated to the system by the caller
 /// @param b  #P by 3
 /// @param x  out, #P by 3
 /// @param work  kept between calls
 CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner,
-                            const std::vector<Vec3>& b, CgTolerance tolerance, int max_iterations,
-                            std::vector<Vec3>& x, CgWork& work,
-                            double radius = std::numeric_limits<double>::infinity());
+                            const std::vector<Vec3>& b, const CgLimits& limits,
+                            std::vector<Vec3>& x, CgWork& work);
 
 } // namespace sloper::cloth

@@ -29,6 +29,12 @@ struct DrapeJob {
   Checkpoints checkpoints; ///< of a plain drape, one in motion, or one with garments under it
 };
 
+/// The garments of one drape; those who own them keep them.
+struct Outfit {
+  Garment& garment;            ///< the outermost, which the drape is about
+  std::vector<Garment>& under; ///< those that lie below it, from the skin outwards
+};
+
 /// What do_drape() leaves beside the garments.
 struct DrapeOutcome {
   DrapeReport report;            ///< of the garment itself
@@ -38,30 +44,27 @@ struct DrapeOutcome {
 
 /// Does the job. After a motion the garment is bound to the last body where that is
 /// known, else to none.
-/// @param garment  in: placed panels or a sewn garment; out: the state reached
-/// @param under  garments that lie below it, from the skin outwards; they come to rest
-/// together, and move together where `job` has a motion
-/// @param body  nullptr for none; needed by `motion` and by garments `under` it
+/// @param outfit  its garment in: placed panels or sewn; out: the state reached. Garments
+/// under it come to rest together with it, and move with it where `job` has a motion
+/// @param body  nullptr for none; needed by `motion` and by garments under the outermost
 /// @param settings  as for drape()
 /// @param stream  for frames named "-"
 /// @throws Error as drape(), and INPUT for a motion or a file of edits that cannot be
 /// read
-DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment>& under,
-                      const body::Body* body, const DrapeSettings& settings, std::ostream& stream,
-                      Reporter& reporter);
+DrapeOutcome do_drape(const DrapeJob& job, const Outfit& outfit, const body::Body* body,
+                      const DrapeSettings& settings, std::ostream& stream, Reporter& reporter);
 
 /// Continues a checkpoint of do_drape() to the same bytes. The garments and all settings
 /// are the checkpoint's.
 /// @param job  its tool, motion, frames and checkpoints.file; `motion` is given where the
 /// checkpoint is of one, and only there. Frames that the checkpoint has passed stay as
 /// they are in the folder; the stream gets those after it.
-/// @param garment  in: body_sha256 of the body, or empty to trust the caller; out: the
-/// state reached
-/// @param under  out: the garments that lie below it
+/// @param outfit  its garment in: body_sha256 of the body, or empty to trust the caller;
+/// out: the state reached, and the garments under it
 /// @param body  the one that the run began with, or nullptr where there was none
 /// @throws Error INPUT for another body or another motion, compared by content
-DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& checkpoint, Garment& garment,
-                        std::vector<Garment>& under, const body::Body* body, std::ostream& stream,
+DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& checkpoint,
+                        const Outfit& outfit, const body::Body* body, std::ostream& stream,
                         Reporter& reporter);
 
 } // namespace sloper::garment

@@ -70,4 +70,10 @@ struct MotionFrame {
 /// Called after each frame, with the garment as it is then.
 using OnMotionFrame = std::function<void(const MotionFrame&, const Garment&)>;
 
+/// A motion that a drape follows, and who sees its frames. It must outlive the drape.
+struct FollowedMotion {
+  const BodyMoves* moves = nullptr; ///< null: the body stands
+  OnMotionFrame on_frame = {};      ///< after each frame; may be empty
+};
+
 } // namespace sloper::garment
