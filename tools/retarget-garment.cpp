@@ -133,7 +133,7 @@ int refuse(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
     written = "; " + o.output + " is not written";
   std::string rule = garment::rule_text(fit.rule, fit.policy);
   if (!rule.empty())
-    rule = "; the rule is " + rule + ": --policy FILE says another";
+    rule = "; the rule is " + rule + ": --policy FILE gives others (POLICY in the manual page)";
   tool.reporter().warning(
       {"retarget.does-not-fit"_id, "does not fit: the garment " + fit.reason + rule + written});
   return o.policy.empty() ? static_cast<int>(ErrorKind::FAILED) : 1;

@@ -63,13 +63,13 @@ void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
 
 /// What is estimated or not found, a line each, and the widest hole; a scanner leaves a dozen, and
 /// a surface that must be closed again.
-void tell_findings(cli::Tool& tool, const body::Body& body) {
+void tell_findings(cli::Tool& tool, const std::string& file, const body::Body& body) {
   std::size_t n_holes = 0;
   Message widest{"scan.hole"_id, ""};
   for (const body::Finding& finding : body.scan.findings) {
     if (finding.severity != "warning")
       continue; // what was not found is told at the end
-    const std::string text = finding.place + ": " + finding.what;
+    const std::string text = file + ": " + finding.place + ": " + finding.what;
     const bool is_hole =
         finding.place[0] == '('; // its place is a point, and they come widest first
     if (is_hole && n_holes++ == 0)
@@ -83,6 +83,15 @@ void tell_findings(cli::Tool& tool, const body::Body& body) {
     widest.text += ", and " + std::to_string(n_holes - 1) + " less wide: scan.findings has them";
   if (n_holes > 0)
     tool.reporter().warning(widest);
+}
+
+/// OBJ is a format of meshes: one without faces may be a mesh that lost its end, where they stand.
+void tell_missing_faces(cli::Tool& tool, const std::string& file, const io::Scan& scan) {
+  if (scan.format == "obj" && scan.mesh.triangles.empty())
+    tool.reporter().warning(
+        {"scan.no-faces"_id,
+         io::file_name(file) + " has points and no faces, and the skin is made up between them; if "
+                               "it should have faces it was cut off: copy it again"});
 }
 
 bool stands(const body::MeasuredScan& measured) {
@@ -155,6 +164,7 @@ int run(cli::Tool& tool, const Options& o) {
   std::snprintf(took, sizeof took, "reading: %.3f s",
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   tool.reporter().info(took);
+  tell_missing_faces(tool, o.scan, scan);
   body::MeasuredScan measured = measure(tool, o, scan, options);
   const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
   const std::string garmentcode =
@@ -179,7 +189,7 @@ int run(cli::Tool& tool, const Options& o) {
   if (o.explain)
     for (const std::string& line : measured.trail)
       tool.tell(line);
-  tell_findings(tool, measured.body);
+  tell_findings(tool, io::file_name(o.scan), measured.body);
   if (!measured.doubts.empty()) {
     std::string doubts;
     for (const body::Finding& doubt : measured.doubts)

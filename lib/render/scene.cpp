@@ -103,6 +103,11 @@ void read_one(Scene& scene, const std::string& path) {
     scene.garment_mesh.push_back(std::ssize(scene.meshes));
     scene.meshes.push_back(cloth_mesh(g));
     scene.draped = true;
+    if (!g.converged)
+      scene.findings.push_back(
+          {"garment.not-at-rest"_id, io::file_name(path) +
+                                         " is not at rest: it was placed without a drape, or its "
+                                         "drape did not end; the picture says nothing of its fit"});
   } else if (format == "panels") {
     garment::Garment g;
     g.panels = pattern::read_panel_mesh(path);

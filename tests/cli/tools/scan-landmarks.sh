@@ -43,3 +43,12 @@ case_inches_are_taken_by_their_name_and_by_themselves() {
   run 3 "$program" --unit inch -o out.json "$data/a.obj"
   says "m tall in inch"
 }
+
+case_an_obj_without_faces_may_have_been_cut_off_and_warnings_name_the_scan() {
+  grep '^v ' "$data/a.obj" > points.obj
+  run 0 "$program" -o out.json points.obj
+  says "points.obj has points and no faces, and the skin is made up between them; if it should"
+  sed 's/^v //' points.obj > points.xyz
+  run 0 "$program" -o out.json points.xyz
+  ! grep -q "no faces, and" stderr || fail "a cloud of points needs no faces"
+}
