@@ -11,9 +11,10 @@ namespace {
 
 constexpr double SEAT_DIFFERENCE_M = 0.005; // people's sides of the seat differ by less
 
-/// A belly's front is told to be anywhere between two heights where a little lean decides which of
-/// them is foremost. Of 80 fresh bodies in natural and mixed stances 13 are warned of, which are
-/// the five that are off by 44 to 103 mm, one by 39, and seven that are right.
+/// Warns that the level of a belly's front is ambiguous where a lean within the error of the
+/// vertical decides which of two heights is foremost. Of 80 fresh bodies in natural and mixed
+/// stances 13 are warned of, which are the five that are off by 44 to 103 mm, one by 39, and seven
+/// that are right.
 void tell_flat_belly(const Finder& f, Span heights, bool is_flat) {
   constexpr double LEAN = 0.0025; // rad: what the vertical of a body is off by at least
   constexpr double FAR = 0.024;   // of stature: so far apart the place is ambiguous

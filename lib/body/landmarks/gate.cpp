@@ -31,8 +31,8 @@ constexpr double ORDER = 0.005;      ///< by which what is higher must be higher
 /// fresh bodies in natural stances four are beyond it: of their landmarks 13 % are off by more than
 /// 25 mm, of the others' 0.4 %.
 constexpr double STRANGER = 1;
-/// Of a bound: a proportion no farther outside is told, and no reason to refuse. A dummy's thin
-/// neck and a figure's short upper arms are measured well all the same.
+/// Share of a bound: a proportion outside of it by at most this is a warning, no refusal. A dummy's
+/// thin neck and a figure's short upper arms are measured well all the same.
 constexpr double TOLERANCE = 0.15;
 constexpr double BELIEVED = 0.2; ///< confidence of a landmark below which it is no evidence
 

@@ -128,7 +128,7 @@ void fair(TriangleMesh& mesh, int rounds) {
 }
 
 /// Pieces of the skin, 2 % of the largest's area and more, that reach out beyond it on a side: arms
-/// that are bodies of their own within sleeves. No way over the skin leads to them.
+/// that are separate pieces within sleeves. No path over the skin reaches them.
 int pieces_aside(const TriangleMesh& mesh, double stature) {
   constexpr double LEAST_AREA = 0.02, LEAST_ASIDE = 0.03; // of the largest's, of stature
   const std::vector<int> piece = connected_components(mesh.positions.size(), mesh.triangles);

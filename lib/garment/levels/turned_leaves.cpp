@@ -11,7 +11,7 @@ namespace {
 // m: a leaf of 7 cm that is turned under lies at most half of that beneath the fronts.
 constexpr double DEEPEST_LEAF = 0.035;
 constexpr double ROLL_ZONE = 0.008; // m from a roll line, in depth: there cloth is folded
-// Cosine between the way to the nearest cloth and its normal: beside a free edge there is no above.
+// Cosine between the nearest cloth's normal and the direction from it: beside a free edge less.
 constexpr double ABOVE = 0.7;
 constexpr int LAYING_ROUNDS = 3; // the nearest cloth may be another once a particle has moved
 

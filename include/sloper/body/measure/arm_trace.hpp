@@ -32,10 +32,9 @@ struct ArmTrace {
   bool pit_mirrored = false;  ///< hidden, and placed as the other arm's is
   /// Front and back fold beside the arm pit, m, body frame.
   std::optional<Vec3> axilla_front, axilla_back;
-  double lifted_m = 0; ///< by which pit and folds were lifted towards those of the other arm
-  double moved_to_merge_m =
-      0;                     ///< by which the pit was moved to `merge`, far inside of its gap's end
-  std::optional<Vec3> merge; ///< where, going up, the level sections of arm and trunk become one
+  double lifted_m = 0;         ///< m, rise of pit and folds towards those of the other arm
+  double moved_to_merge_m = 0; ///< m, how far the pit was moved to `merge` from its gap's end
+  std::optional<Vec3> merge;   ///< where, going up, the level sections of arm and trunk become one
   /// Point of the centre line at `along` m from the tip, extended straight beyond its
   /// ends.
   Vec3 at(double along) const;
