@@ -290,7 +290,8 @@ def make_cell(plan, number):
             .get("ease_cm", {})
             .get("uncertainty"),
             ease_percent={name: g["ease_percent"]["value"] for name, g in fit["girths"].items()},
-            strain_p99=fit["strain"]["p99"],
+            # cloth that was only placed has no strain
+            strain_p99=fit["strain"]["p99"] if "at rest" in fit.get("state", "") else None,
         )
     if fit and "probability" in fit:
         status["probability"] = fit["probability"]["fits"]

@@ -109,18 +109,23 @@ std::string fit_csv(const FitReport& report) {
                     "uncertainty,gap_p05_mm,gap_p50_mm,gap_uncertainty_mm,"
                     "pressure_p95_pa,pressure_uncertainty_pa,margin_cm,verdict,reason\r\n";
   for (const FitRow& r : report.rows) {
-    char line[512];
-    std::snprintf(line, sizeof line,
-                  "%s,%s,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.4f,%.4f,%s,%.4f,%.2f,%.2f,%"
-                  ".2f,%.1f,%.1f,%.2f,%s,",
+    char sizes[256];
+    std::snprintf(sizes, sizeof sizes, "%s,%s,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,",
                   r.name.c_str(), r.kind.c_str(), r.height_m, 100 * r.body_m,
                   100 * r.body_uncertainty_m, 100 * r.rest_m, 100 * r.lying_m,
                   100 * r.garment_uncertainty_m, 100 * r.ease_m, 100 * r.ease_m / r.body_m,
-                  100 * r.ease_uncertainty_m, r.strain_girth, r.strain_p99,
-                  r.strain_direction.c_str(), r.strain_uncertainty, 1000 * r.gap_p05_m,
-                  1000 * r.gap_p50_m, 1000 * r.gap_uncertainty_m, r.pressure_p95_pa,
-                  r.pressure_uncertainty_pa, 100 * r.margin_m, verdict_name(r.verdict));
-    csv += line;
+                  100 * r.ease_uncertainty_m);
+    char draped[256] = ",,,,,,,,,";
+    if (report.was_draped())
+      std::snprintf(draped, sizeof draped, "%.4f,%.4f,%s,%.4f,%.2f,%.2f,%.2f,%.1f,%.1f,",
+                    r.strain_girth, r.strain_p99, r.strain_direction.c_str(), r.strain_uncertainty,
+                    1000 * r.gap_p05_m, 1000 * r.gap_p50_m, 1000 * r.gap_uncertainty_m,
+                    r.pressure_p95_pa, r.pressure_uncertainty_pa);
+    char verdict[64];
+    std::snprintf(verdict, sizeof verdict, "%.2f,%s,", 100 * r.margin_m, verdict_name(r.verdict));
+    csv += sizes;
+    csv += draped;
+    csv += verdict;
     csv += "\"" + r.reason + "\"\r\n";
   }
   return csv;

@@ -68,6 +68,11 @@ std::string cell(double value, int digits, double uncertainty = -1) {
   return text + "</td>";
 }
 
+/// Cell of a figure that was not measured; it sorts below every number.
+std::string unmeasured_cell() {
+  return "<td data-v=\"-1e9\" class=\"pale\">&ndash;</td>";
+}
+
 const char* css_class(FitVerdict verdict) {
   switch (verdict) {
   case FitVerdict::OK: return "ok";
@@ -75,6 +80,14 @@ const char* css_class(FitVerdict verdict) {
   case FitVerdict::TIGHT: return "tight";
   default: return "bad";
   }
+}
+
+/// What only draped cloth has: strain, gap and pressure.
+std::string draped_cells(const FitRow& r) {
+  return cell(100 * r.strain_p99, 1, 100 * r.strain_uncertainty) + "<td class=\"words\">" +
+         r.strain_direction + "</td>" + cell(1000 * r.gap_p05_m, 1) +
+         cell(1000 * r.gap_p50_m, 1, 1000 * r.gap_uncertainty_m) +
+         cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa);
 }
 
 std::string table(const std::vector<std::string>& heads, const std::string& rows) {
@@ -183,6 +196,8 @@ std::string fit_page(const FitReport& report, const std::string& garment, const 
           (report.fabric.empty() ? "" : "; fabric: " + escaped(report.fabric)) +
           said_of(report.state) + "</p>\n";
   if (!report.rows.empty()) {
+    const std::string undraped = unmeasured_cell() + "<td class=\"words\"></td>" +
+                                 unmeasured_cell() + unmeasured_cell() + unmeasured_cell();
     std::string rows;
     for (const FitRow& r : report.rows)
       rows += "<tr><td>" + escaped(spoken_girth(r.name)) + "</td>" + cell(r.height_m * 100, 1) +
@@ -191,16 +206,13 @@ std::string fit_page(const FitReport& report, const std::string& garment, const 
               cell(r.ease_m * 100, 1, r.ease_uncertainty_m * 100) +
               cell(100 * r.ease_m / r.body_m, 1) + "<td class=\"words " + css_class(r.verdict) +
               "\">" + verdict_name(r.verdict) + "</td>" +
-              cell(100 * r.strain_p99, 1, 100 * r.strain_uncertainty) + "<td class=\"words\">" +
-              r.strain_direction + "</td>" + cell(1000 * r.gap_p05_m, 1) +
-              cell(1000 * r.gap_p50_m, 1, 1000 * r.gap_uncertainty_m) +
-              cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa) + "</tr>\n";
+              (report.was_draped() ? draped_cells(r) : undraped) + "</tr>\n";
     page += "<h2>Ease</h2>\n" + ease_bars(report.rows) + "<h2>Girths</h2>\n" +
             table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "verdict",
                    "strain p99 %", "along", "gap p05 mm", "gap p50 mm", "pressure p95 Pa"},
                   rows);
   }
-  if (!report.regions.empty()) {
+  if (!report.regions.empty() && report.was_draped()) {
     std::string rows;
     for (const FitRegion& r : report.regions)
       rows += "<tr><td>" + r.name + "</td>" + cell(100 * r.strain_p50, 1) +

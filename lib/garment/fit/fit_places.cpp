@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace sloper::garment {
@@ -276,6 +277,14 @@ std::vector<char> cloth_of(const Garment& garment, const FitPlace& place) {
 }
 
 std::string spoken_girth(const std::string& girth) {
+  static const std::map<std::string, std::string> SPOKEN = {
+      {"waist_semantic", "waist"},
+      {"waist_girth_min", "narrowest waist"},
+      {"waist_width_min", "waist seen from the front"},
+      {"omphalion", "navel"},
+  };
+  if (const auto spoken = SPOKEN.find(girth); spoken != SPOKEN.end())
+    return spoken->second;
   std::string name = girth;
   std::replace(name.begin(), name.end(), '_', ' ');
   if (name.size() > 2 && name.compare(name.size() - 2, 2, " l") == 0)

@@ -31,7 +31,7 @@ double skin_girth(const body::Body& body, const std::vector<body::Part>& parts, 
 /// #F: triangles of the garment that belong to a place. @param garment bound
 std::vector<char> cloth_of(const Garment& garment, const FitPlace& place);
 
-/// "left thigh" for "thigh_l".
+/// "left thigh" for "thigh_l", "navel" for "omphalion".
 std::string spoken_girth(const std::string& girth);
 
 } // namespace sloper::garment

@@ -397,6 +397,23 @@ TEST(fit, legs_that_reach_below_the_soles_are_too_long) {
   EXPECT_EQ(trailing.reason.rfind("is too long: it reaches ", 0), 0u) << trailing.reason;
 }
 
+TEST(fit, the_page_and_the_csv_show_no_strain_of_cloth_that_was_not_draped) {
+  const body::Body body = measured("f-165-a");
+  FitReport report = dressed(body, skin_shirt(body)).report;
+  const std::string draped_page = fit_page(report, "a", "b");
+  report.state = "placed";
+  const std::string page = fit_page(report, "a", "b"), csv = fit_csv(report);
+  EXPECT_NE(draped_page.find("Strain by region"), std::string::npos);
+  EXPECT_EQ(draped_page.find("&ndash;"), std::string::npos);
+  EXPECT_EQ(page.find("Strain by region"), std::string::npos);
+  EXPECT_NE(page.find("&ndash;"), std::string::npos);
+  const std::string head = csv.substr(0, csv.find('\r')), rows = csv.substr(csv.find('\n') + 1);
+  const std::string first = rows.substr(0, rows.find('\n'));
+  EXPECT_EQ(std::count(head.begin(), head.end(), ','), std::count(first.begin(), first.end(), ','));
+  EXPECT_NE(first.find(",,,,,,,,,"), std::string::npos);
+  EXPECT_EQ(page.find("waist semantic"), std::string::npos);
+}
+
 TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_shirt(body));

@@ -99,6 +99,10 @@ struct FitReport {
   /// Of the cloth that was measured: "at rest", "not at rest", "placed" (not draped),
   /// "not placed" (not measured)
   std::string state;
+
+  /// Whether strain, gap, pressure and slip were measured: those of cloth that was only placed, or
+  /// refused before any drape, are 0 and say nothing.
+  bool was_draped() const { return state == "at rest" || state == "not at rest"; }
 };
 
 } // namespace sloper::garment
