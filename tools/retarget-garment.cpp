@@ -3,7 +3,6 @@
 #include <sloper/cli/run_tool.hpp>
 #include <sloper/collision/skin_cache.hpp>
 #include <sloper/garment/bind/bind.hpp>
-#include <sloper/garment/drape/drape.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/fit/worn_policy.hpp>
@@ -11,6 +10,7 @@
 #include <sloper/garment/ingest/mesh_garment.hpp>
 #include <sloper/garment/inputs.hpp>
 #include <sloper/garment/materials.hpp>
+#include <sloper/garment/retarget/drape_retargeted.hpp>
 #include <sloper/garment/retarget/nearest_size.hpp>
 #include <sloper/garment/retarget/retarget.hpp>
 #include <sloper/garment/retarget/retarget_pattern.hpp>
@@ -283,7 +283,8 @@ int run(cli::Tool& tool, Options o) {
                                       .start = {.hold_sleeve_ends = placed.has_folded_sleeves}};
   for (;;) {
     if (!o.no_drape && !hopeless)
-      report = garment::drape(garment, &body, settings, tool.reporter(), request);
+      report =
+          garment::drape_retargeted(placed, source, body, mode, settings, tool.reporter(), request);
     garment::bind_garment(garment, body);
     if (hopeless)
       break;

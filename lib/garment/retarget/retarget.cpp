@@ -37,7 +37,9 @@ constexpr double PRESSED_SHARE =
 constexpr int LEAST_ROUNDS = 6; // before which the shape has not found its rest
 constexpr double FEW_THROUGH =
     0.01; // of the faces: more is cloth that is too small, and no round brings it out
-constexpr int MOST_TIMES = 4;          // the rounds, while there are few
+constexpr int MOST_TIMES = 4; // the rounds, while there are few
+constexpr int PATIENCE = 10;  // rounds without fewer faces through: of 4 shirts that 40 rounds did
+                              // not clear, 120 more cleared none, and the count only varied
 constexpr double LONGEST_MOVE = 0.008; // m of a particle in one round
 constexpr double LEAST_SLEEVE = 0.02;  // of a garment that hangs on one arm: it has a sleeve
 constexpr double EASY_STRAIN = 0.01;   // of cloth that is let out
@@ -223,12 +225,17 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape,
   solver.analyse(ops.stiffness);
   std::vector<int> hint(n, -1);
   double largest_move = 0;
+  int round = 0, best_round = 0;
+  std::size_t least_through = triangles.size();
   const auto few_are_through = [&] {
     const std::size_t through = body.faces_through(positions, triangles).size();
-    return through > 0 &&
+    if (through < least_through) {
+      least_through = through;
+      best_round = round;
+    }
+    return through > 0 && round - best_round < PATIENCE &&
            static_cast<double>(through) < FEW_THROUGH * static_cast<double>(triangles.size());
   };
-  int round = 0;
   for (; round < max_rounds || (round < MOST_TIMES * max_rounds && few_are_through()); ++round) {
     const Pushes pushes = pushes_of(positions, triangles, topology, body, gap, hint);
     if (round >= LEAST_ROUNDS && largest_move < STILL &&
@@ -371,6 +378,8 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
     report.largest_move_m = std::max(report.largest_move_m, (g.position[i] - placed[i]).norm());
   measure(report.settled_p01, report.settled_p50, report.settled_p99);
   report.cleared = state_of(g.position, triangles, skin);
+  result.is_tangled = report.cleared.faces_through > 0 || report.cleared.vertices_inside > 0 ||
+                      report.cleared.self_intersections > 0;
   reporter.info("placed: " + std::to_string(report.placed.vertices_inside) +
                 " particles in the body, " + std::to_string(report.cleared.vertices_inside) +
                 " after clearing the skin in " + std::to_string(report.clear_rounds) + " rounds");

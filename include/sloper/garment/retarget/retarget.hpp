@@ -93,7 +93,8 @@ struct Retargeted {
   /// Longer than the arms, and their ends are at the wrists: for
   /// StartFacts::hold_sleeve_ends.
   bool has_folded_sleeves = false;
-  PlacementReport report; ///< of the placing
+  bool is_tangled = false; ///< the garment crosses body or cloth, though it was cleared
+  PlacementReport report;  ///< of the placing
 };
 /// Places a garment on another body and clears it from the skin; with KEEP_FIT the
 /// pattern is graded.

@@ -1,0 +1,138 @@
+/// A retargeted garment that cannot be freed where it was placed is sewn anew from its panels.
+#include <gtest/gtest.h>
+#include <mannequin.hpp>
+#include <measures.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/retarget/drape_retargeted.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+
+using namespace sloper;
+using namespace sloper::garment;
+
+namespace {
+
+struct Figure {
+  body::Body body;
+  io::Json truth;
+
+  explicit Figure(const std::string& preset) {
+    const samples::MadeMannequin made = samples::make_mannequin(samples::preset(preset));
+    body = body::measure_scan(made.mesh, preset, "", {}, silent_reporter()).body;
+    truth = made.truth;
+  }
+};
+
+/// A skirt at rest on the figure that it was drafted for, on edges of 25 mm.
+Garment worn_skirt(const Figure& figure) {
+  const pattern::Pattern source =
+      pattern::read_pattern_json(samples::pattern_document(samples::draft_skirt(
+                                     samples::measures_from_body(figure.truth, "figure"))),
+                                 "skirt");
+  Garment garment;
+  garment.panels = pattern::mesh_pattern(source, 0.025, "skirt");
+  garment.panels.source = std::make_shared<pattern::Pattern>(source);
+  pattern::place_panels(source, figure.body, garment.panels);
+  const DrapeReport report =
+      drape(garment, &figure.body, preset_settings("standard"), silent_reporter());
+  EXPECT_TRUE(report.converged);
+  bind_garment(garment, figure.body);
+  return garment;
+}
+
+/// Draws the hem through the body to the other side.
+void tangle(Garment& garment) {
+  double low = 1e300;
+  for (const Vec3& p : garment.position)
+    low = std::min(low, p.y());
+  for (Vec3& p : garment.position)
+    if (p.y() < low + 0.2 && p.z() > 0)
+      p.z() = -p.z() - 0.05;
+}
+
+} // namespace
+
+class ASkirtOnAnotherFigure : public testing::Test {
+protected:
+  static void SetUpTestSuite() {
+    s_from = new Figure("f-165-a");
+    s_to = new Figure("f-160-a");
+    s_skirt = new Garment(worn_skirt(*s_from));
+  }
+  static void TearDownTestSuite() {
+    delete s_skirt;
+    delete s_to;
+    delete s_from;
+  }
+  static Retargeted placed(RetargetMode mode) {
+    const collision::BodyCollider skin(s_to->body.skin);
+    return retarget(*s_skirt, s_to->body, skin, mode, silent_reporter());
+  }
+  static DrapeReport drape_it(Retargeted& retargeted, RetargetMode mode,
+                              const DrapeSettings& settings = preset_settings("standard")) {
+    return drape_retargeted(retargeted, *s_skirt, s_to->body, mode, settings, silent_reporter(),
+                            {});
+  }
+  static bool is_sewn_anew(const DrapeReport& report) {
+    for (const std::string& repair : report.repairs)
+      if (repair.rfind("sewn anew around the body from its panels", 0) == 0)
+        return true;
+    return false;
+  }
+
+  inline static Figure *s_from = nullptr, *s_to = nullptr;
+  inline static Garment* s_skirt = nullptr;
+};
+
+TEST_F(ASkirtOnAnotherFigure, that_is_clear_is_draped_from_where_it_was_placed) {
+  Retargeted retargeted = placed(RetargetMode::KEEP_FIT);
+  ASSERT_FALSE(retargeted.is_tangled);
+  const DrapeReport report = drape_it(retargeted, RetargetMode::KEEP_FIT);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(is_sewn_anew(report));
+}
+
+TEST_F(ASkirtOnAnotherFigure, that_was_cut_anew_and_is_tangled_is_sewn_anew) {
+  Retargeted retargeted = placed(RetargetMode::KEEP_FIT);
+  tangle(retargeted.garment);
+  retargeted.is_tangled = true;
+  const DrapeReport report = drape_it(retargeted, RetargetMode::KEEP_FIT);
+  EXPECT_TRUE(report.converged) << stop_text(report);
+  EXPECT_TRUE(is_sewn_anew(report));
+  EXPECT_EQ(report.quality.value("faces_through_body", -1), 0);
+  EXPECT_EQ(report.quality.value("self_intersections", -1), 0);
+  EXPECT_EQ(retargeted.garment.particle_of, s_skirt->particle_of);
+  EXPECT_EQ(retargeted.garment.position.size(), s_skirt->position.size());
+}
+
+TEST_F(ASkirtOnAnotherFigure, of_the_same_fabric_is_sewn_anew_where_the_first_drape_ends_tangled) {
+  Retargeted retargeted = placed(RetargetMode::KEEP_FABRIC);
+  tangle(retargeted.garment);
+  DrapeSettings settings = preset_settings("standard");
+  const DrapeReport report = drape_it(retargeted, RetargetMode::KEEP_FABRIC, settings);
+  EXPECT_TRUE(is_sewn_anew(report));
+  EXPECT_TRUE(report.converged) << stop_text(report);
+}
+
+TEST_F(ASkirtOnAnotherFigure, without_its_pattern_or_a_second_mesh_is_not_sewn_anew) {
+  const Garment garment = placed(RetargetMode::KEEP_FABRIC).garment;
+  DrapeSettings settings = preset_settings("standard");
+  Garment panels;
+  const auto why = [&](const Garment& source) {
+    return panels_anew(garment, source, s_to->body, RetargetMode::KEEP_FABRIC, settings, panels);
+  };
+  EXPECT_EQ(why(*s_skirt), "");
+  EXPECT_TRUE(panels.particle_of.empty());
+  Garment nameless = *s_skirt;
+  nameless.panels.source.reset();
+  EXPECT_EQ(why(nameless), "it does not know its pattern");
+  settings.levels = 1;
+  EXPECT_EQ(why(*s_skirt), "it is to be draped on the given mesh alone");
+}
