@@ -14,17 +14,20 @@ constexpr double ARM_LEVEL = 0.004;    // of stature: an arm's section counts fo
 
 } // namespace
 
+double arm_joins(const ArmTrace& arm, double stature) {
+  if (arm.pit_hidden)
+    return HIDDEN_PIT * stature;
+  const double merge = arm.merge ? arm.merge->y() : arm.axilla->y();
+  return std::min(arm.axilla->y(), merge) - PIT_MARGIN_M;
+}
+
 std::optional<Level> measure_level(const Finder& f, double y) {
   const auto& loop = f.levels.trunk_at(y);
   if (!loop)
     return std::nullopt;
   double limit[2] = {1e300, 1e300}; // x of the left and (negated) of the right arm pit
   for (int side = 0; side < 2; ++side)
-    if (f.arms[side].axilla &&
-        y > (f.arms[side].pit_hidden
-                 ? HIDDEN_PIT * f.s
-                 : f.arms[side].axilla->y() -
-                       PIT_MARGIN_M)) // an arm that touches hangs on it below the pit too
+    if (f.arms[side].axilla && y > arm_joins(f.arms[side], f.s))
       limit[side] = std::abs(f.arms[side].axilla->x());
   std::vector<Vec2> points;
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);

@@ -10,6 +10,10 @@ constexpr double LEVEL_STEP_M = 0.002;     ///< between levels of a girth's curv
 constexpr double ABOVE_CROTCH_M = 0.004;   ///< the first level that is the trunk's
 constexpr double PEAKED = 0.00018;         ///< of stature: as far out as the top of what has one
 
+/// Height above which an arm is part of the trunk's outline, m: where the sections of both meet,
+/// which may lie below the pit, in its middle. An arm that touches hangs on the trunk below its pit
+/// too. @param arm  with a pit   @param stature  m
+double arm_joins(const ArmTrace& arm, double stature);
 /// The trunk's outline at height y, m, without arms that hang on it: clipped at the arm pits.
 /// @return nothing where there is no trunk
 std::optional<Level> measure_level(const Finder& f, double y);

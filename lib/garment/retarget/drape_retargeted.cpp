@@ -54,7 +54,7 @@ public:
 
   DrapeReport run(Reporter& reporter, const DrapeRequest& request) {
     const Garment placed = m_retargeted.garment;
-    const bool anew_first = m_mode == RetargetMode::KEEP_FIT && m_retargeted.is_tangled;
+    const bool anew_first = m_retargeted.is_tangled;
     m_retargeted.is_tangled = false;
     if (anew_first)
       if (const std::string why = make_panels(placed); why.empty()) {

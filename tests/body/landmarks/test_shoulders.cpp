@@ -1,4 +1,5 @@
 /// Two ways to the acromion, and an arm pit that touching skin hides on one side.
+#include <body/landmarks/trunk_section.hpp>
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
@@ -63,4 +64,15 @@ TEST(ArmPit, that_is_hidden_on_one_side_is_put_as_the_other_and_told) {
   EXPECT_EQ(after.landmarks.at("axilla_l").rule, "as_other_arm");
   EXPECT_TRUE(is_doubted(after, "axilla_l"));
   EXPECT_FALSE(is_doubted(after, "axilla_r"));
+}
+
+TEST(Levels, an_arm_is_left_out_from_where_its_section_meets_the_trunks) {
+  ArmTrace arm;
+  arm.axilla = Vec3(0.18, 1.2214, 0);
+  EXPECT_NEAR(arm_joins(arm, 1.6), 1.2194, 1e-9);
+  // a level of 1.2202 had the whole arm in its girth: 143 cm in place of 98
+  arm.merge = Vec3(0.19, 1.2120, -0.03);
+  EXPECT_LT(arm_joins(arm, 1.6), 1.2120);
+  arm.pit_hidden = true;
+  EXPECT_LT(arm_joins(arm, 1.6), 1.0);
 }

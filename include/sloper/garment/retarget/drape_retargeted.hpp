@@ -15,13 +15,14 @@ namespace sloper::garment {
 ///
 /// There are two starts. A placed garment hangs nearly where it belongs and needs few steps. Its
 /// panels, placed around the body and sewn on a coarse mesh first (DrapeSettings::levels), need
-/// more, but begin without a crossing. With KEEP_FIT, the panels come first where the placed
-/// garment still crosses body or cloth after it was cleared; they were cut anew in any case. The
-/// other start is tried where the first ends in crossings, or moves no further; with KEEP_FABRIC
-/// also at the step limit. `repairs` of the report says so.
+/// more, but begin without a crossing. They come first where the placed garment still crosses body
+/// or cloth after it was cleared (Retargeted::is_tangled). The other start is tried where the first
+/// ends in crossings, or moves no further; with KEEP_FABRIC also at the step limit. `repairs` of
+/// the report says so.
 ///
-/// Of 48 fresh bodies in natural stance and four garments, keep-fit from the placed garment alone
-/// left 7 of 192 drapes with crossings.
+/// Of 48 fresh bodies in natural stance and four garments, 192 drapes with KEEP_FIT, 7 ended in
+/// crossings from the placed garment alone and none with both starts; the mean cell took 4.8 CPU s
+/// before and 3.8 since.
 /// @param retargeted  of retarget() or widen_strained_pieces(); out: the state reached, of the same
 /// particles
 /// @param source  that it was retargeted from
