@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::body {
 
@@ -134,6 +135,30 @@ void find_prominence(const Finder& f, const std::array<ChestFront, 2>& fronts) {
   }
 }
 
+/// Warns of a bust that hangs below where its rules look: below the bust point the chest stands out
+/// clearly farther, and falls back again. Of 137 women among 268 fresh bodies it was one, whose
+/// bust was 83 mm lower; bellies stand out at the end of the heights.
+void doubt_hanging_bust(const Finder& f, int side) {
+  constexpr double DEEPEST = 0.09, BELLY = 0.078, LOWER = 0.02, BEFORE = 0.015; // of stature
+  constexpr double DOUBT = 0.5;                                                 // of the confidence
+  const std::string name = std::string("bust_point") + side_suffix(side);
+  const Vec3 point = f.at(name);
+  const Span across = half_front(side, f.number("bust.inner") * f.s, f.number("bust.outer") * f.s);
+  const auto hanging =
+      foremost_place(f, {point.y() - DEEPEST * f.s, point.y()}, across, 1, PEAKED, 0);
+  if (!hanging)
+    return;
+  const Vec3 off = (hanging->p - point) / f.s;
+  if (off.y() < -BELLY || off.y() > -LOWER || off.z() < BEFORE)
+    return;
+  f.also(name, hanging->p);
+  f.body.landmarks[name].confidence *= DOUBT;
+  char text[120];
+  std::snprintf(text, sizeof text, "the bust may hang: the chest is foremost %.0f mm lower",
+                -1000 * f.s * off.y());
+  f.body.scan.findings.push_back({"scan.landmark-unlikely"_id, "warning", text, name});
+}
+
 } // namespace
 
 void find_bust(const Finder& f, double pit) {
@@ -209,6 +234,9 @@ void find_bust(const Finder& f, double pit) {
     sum += point->y();
     ++n;
   }
+  for (int side = 0; side < 2; ++side)
+    if (points->value[side] && f.figure.female > 0.5 && points->rule->name != "bump_of_chest")
+      doubt_hanging_bust(f, side);
   find_prominence(f, fronts);
   if (n == 2)
     put_level(f, "bust", sum / 2, points->rule->name);

@@ -262,3 +262,23 @@ TEST(Belly, that_competes_with_the_chest_is_told) {
   EXPECT_LT(above_bust(belly), 0);
   EXPECT_FALSE(is_told(belly));
 }
+
+TEST(Bust, that_hangs_below_where_it_is_looked_for_is_told) {
+  const TriangleMesh& plain = test::mannequin("f-165-plus").mesh;
+  const double s = 1.65;
+  const Vec3 bust = test::in_scan(test::measure(plain).body, "bust_point_l");
+  auto is_told = [&](double rise) {
+    TriangleMesh mesh = plain;
+    const std::vector<Vec3> normals = vertex_normals(mesh);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      if (Vec3& p = mesh.positions[v]; normals[v].z() > 0.3 && std::abs(p.x()) < 0.1 * s)
+        p.z() += rise * std::exp(-std::pow((p.y() - bust.y() + 0.06 * s) / (0.02 * s), 2));
+    const Body body = test::measure(mesh).body;
+    for (const Finding& finding : body.scan.findings)
+      if (finding.severity == "warning" && finding.place == "bust_point_l")
+        return true;
+    return false;
+  };
+  EXPECT_FALSE(is_told(0));
+  EXPECT_TRUE(is_told(0.07));
+}
