@@ -228,73 +228,136 @@ namespace {
 
 /// Of 160 arm pits of fresh bodies none was farther outside of the merge than 0.007 of the stature.
 constexpr double OUTSIDE_MERGE = 0.02;
+constexpr double LEVEL_ARM = -0.12;   ///< height of the unit vector to the hand of an arm that is
+                                      ///< looked for apart from the trunk all the way down
+constexpr double SECTION_NEAR = 0.01; ///< of stature: sections of the arm this near a level
 constexpr double HANGS = -0.4; ///< height of the unit vector to the hand: a more level arm meets
                                ///< the trunk's levels anywhere along it
+
+/// Of stature about the middle of a level arm: heights at which its underside is met, and the step
+/// between the levels.
+constexpr double LEVEL_BELOW = 0.05, LEVEL_ABOVE = 0.02, LEVEL_RISE = 0.0006;
+/// A trunk whose outline leaps out by more has taken in a piece of the arm's underside; along the
+/// underside itself it runs out without a leap.
+constexpr double TAKEN_IN = 0.008;
+constexpr double BISECTED_M = 2e-5;
+
+/// Level sections just below the height at which two loops become one.
+struct Junction {
+  double y = 0; ///< m
+  std::vector<Loop> loops;
+  int trunk = -1, limb = -1; ///< of loops
+};
+
+/// The largest loop that spans the middle; -1 where there is none.
+int middle_loop(const std::vector<Loop>& loops) {
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (loops[i].area > 0 && loops[i].low.x() < 0 && loops[i].high.x() > 0)
+      return static_cast<int>(i);
+  return -1;
+}
+
+double outer_end(const Loop& loop, bool left) {
+  return left ? loop.high.x() : -loop.low.x();
+}
+
+/// Where the trunk's section first takes in a piece of a level arm's underside, going up from below
+/// the arm. Such an arm meets the levels in several pieces, and those far out join last.
+std::optional<Junction> level_arm_joins(const ArmTrace& arm, const LevelStack& levels) {
+  const double s = levels.stature(), middle = arm.at(0.85 * arm.length()).y();
+  auto reach = [&](double y) {
+    const std::vector<Loop> loops = levels.exact(y);
+    const int trunk = middle_loop(loops);
+    return trunk < 0 ? 0.0 : outer_end(loops[trunk], arm.left);
+  };
+  double low = middle - LEVEL_BELOW * s, reach_low = reach(low);
+  for (double y = low + LEVEL_RISE * s; y < middle + LEVEL_ABOVE * s; y += LEVEL_RISE * s) {
+    double high = y, reach_high = reach(y);
+    const double next = high, reach_next = reach_high;
+    while (reach_high - reach_low > TAKEN_IN * s && high - low > BISECTED_M) {
+      const double half = 0.5 * (low + high), at_half = reach(half);
+      if (at_half - reach_low > reach_high - at_half) {
+        high = half;
+        reach_high = at_half;
+      } else {
+        low = half;
+        reach_low = at_half;
+      }
+    }
+    if (reach_high - reach_low > TAKEN_IN * s) {
+      Junction junction{low, levels.exact(low), -1, -1};
+      junction.trunk = middle_loop(junction.loops);
+      double least = 1e300;
+      for (std::size_t i = 0; i < junction.loops.size(); ++i) {
+        const Loop& loop = junction.loops[i];
+        const double inner_end = arm.left ? loop.low.x() : -loop.high.x();
+        if (static_cast<int>(i) == junction.trunk || loop.area <= 0 || inner_end < 0 ||
+            std::abs(inner_end - reach_low) > least)
+          continue;
+        least = std::abs(inner_end - reach_low);
+        junction.limb = static_cast<int>(i);
+      }
+      if (junction.trunk >= 0 && junction.limb >= 0)
+        return junction;
+    }
+    low = next;
+    reach_low = reach_next;
+  }
+  return std::nullopt;
+}
+
+/// Highest level below which a hanging arm and the trunk are two loops.
+std::optional<Junction> hanging_arm_joins(const ArmTrace& arm, const LevelStack& levels) {
+  const double s = levels.stature();
+  auto loops_at = [&](double y) {
+    Junction cut{y, levels.exact(y), -1, -1};
+    double nearest = 0.03 * s;
+    for (std::size_t i = 0; i < cut.loops.size(); ++i) {
+      const Loop& loop = cut.loops[i];
+      if (loop.area <= 0)
+        continue;
+      if (cut.trunk < 0 && std::abs(loop.centroid.x()) < 0.06 * s) // the largest near the middle
+        cut.trunk = static_cast<int>(i);
+      double d = 1e300;
+      for (const LimbSection& section : arm.sections) {
+        if (std::abs(section.center.y() - y) > SECTION_NEAR * s)
+          continue;
+        const Vec2 c(section.center.x(), section.center.z());
+        d = std::min(d, encloses(loop, c) ? 0.0 : (c - loop.centroid).norm());
+      }
+      if (d < nearest) {
+        nearest = d;
+        cut.limb = static_cast<int>(i);
+      }
+    }
+    return cut;
+  };
+  auto apart = [&](double y) {
+    const Junction cut = loops_at(y);
+    return cut.trunk >= 0 && cut.limb >= 0 && cut.trunk != cut.limb;
+  };
+  double low = 0, high = 0;
+  for (double y = 0.80 * s; y > 0.62 * s && low == 0; y -= 0.005 * s)
+    (apart(y) ? low : high) = y;
+  if (low == 0 || high == 0)
+    return std::nullopt;
+  while (high - low > BISECTED_M) {
+    const double y = 0.5 * (low + high);
+    (apart(y) ? low : high) = y;
+  }
+  return loops_at(low);
+}
 
 } // namespace
 
 void find_merge(ArmTrace& arm, const LevelStack& levels) {
   const double s = levels.stature();
-  double reach = 0.01 * s, from = 0; // sections this near the level, this far from the hand
-  bool is_level = false;
-  auto loops_at = [&](double y, int& trunk, int& limb) {
-    std::vector<Loop> loops = levels.exact(y);
-    trunk = limb = -1;
-    double nearest = 0.03 * s;
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (loops[i].area <= 0)
-        continue;
-      const bool is_trunk =
-          trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s; // the largest near the middle
-      if (is_trunk)
-        trunk = static_cast<int>(i);
-      if (is_trunk && is_level)
-        continue; // it reaches below the arm's middle even while the arm's underside is a loop of
-                  // its own
-      double d = 1e300;
-      for (const LimbSection& section : arm.sections) {
-        if (std::abs(section.center.y() - y) > reach || section.along < from)
-          continue;
-        const Vec2 c(section.center.x(), section.center.z());
-        d = std::min(d, encloses(loops[i], c) ? 0.0 : (c - loops[i].centroid).norm());
-      }
-      if (d < nearest) {
-        nearest = d;
-        limb = static_cast<int>(i);
-      }
-    }
-    return loops;
-  };
-  auto apart = [&](double y) {
-    int trunk, limb;
-    loops_at(y, trunk, limb);
-    return trunk >= 0 && limb >= 0 && trunk != limb;
-  };
-  double low = 0, high = 0;
-  auto search = [&](double top, double bottom, double step) {
-    low = high = 0;
-    for (double y = top; y > bottom && low == 0; y -= step)
-      (apart(y) ? low : high) = y;
-  };
-  if (arm.out.y() < -0.12)
-    search(0.80 * s, 0.62 * s, 0.005 * s);
-  if (low == 0 || high == 0) { // a level through a level arm's underside is further from its
-                               // middle, and the hand may hang
-    reach = 0.035 * s;
-    from = 0.6 * arm.length();
-    is_level = true;
-    const double middle = arm.at(0.85 * arm.length()).y();
-    search(middle, middle - 0.05 * s, 0.0006 * s);
-  }
-  if (low == 0 || high == 0)
-    return; // a level arm may never stand apart in level sections
-  while (high - low > 2e-5) {
-    const double y = 0.5 * (low + high);
-    (apart(y) ? low : high) = y;
-  }
-  int trunk, limb;
-  const std::vector<Loop> loops = loops_at(low, trunk, limb);
-  if (trunk < 0 || limb < 0)
+  std::optional<Junction> joined;
+  if (arm.out.y() < LEVEL_ARM)
+    joined = hanging_arm_joins(arm, levels);
+  if (!joined)
+    joined = level_arm_joins(arm, levels);
+  if (!joined) // a level arm may never stand apart in level sections
     return;
   // both folds of the pit may come as near: of places as near as makes no difference the middle
   struct Near {
@@ -303,11 +366,11 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   };
   std::vector<Near> all;
   double least = 1e300;
-  for (const auto& a : loops[trunk].segments)
+  for (const auto& a : joined->loops[joined->trunk].segments)
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const Vec2 p = (1 - t) * a[0] + t * a[1];
       Near near{p, 1e300, (a[1] - a[0]).norm()};
-      for (const auto& b : loops[limb].segments) {
+      for (const auto& b : joined->loops[joined->limb].segments) {
         const Vec2 along = b[1] - b[0];
         const Vec2 q =
             b[0] +
@@ -330,7 +393,7 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
     }
   if (weight <= 0)
     return;
-  const Vec3 merge(sum.x() / weight, low, sum.y() / weight);
+  const Vec3 merge(sum.x() / weight, joined->y, sum.y() / weight);
   if (std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s)
     arm.merge = merge;
   // of an arm that hangs both are one place; a gap that closes far outside ran into a bulge of the

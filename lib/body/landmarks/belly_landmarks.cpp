@@ -45,23 +45,13 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double half_belly = f.number("abdomen.half_breadth") * s;
   const double half_seat = f.number("buttock.half_breadth") * s;
   std::optional<Foremost> belly;
-  std::optional<Vec3> rival; // as far out, far from where bellies are foremost
+  std::optional<Vec3> rival; // a bulge below a belly that runs on into the chest
   auto foremost = [&]() -> std::optional<Vec3> {
     belly = foremost_place(f, {crotch + f.number("abdomen.above_crotch") * s, waist},
                            {-half_belly, half_belly}, 1, f.number("abdomen.flat"), 0);
     if (!belly)
       return std::nullopt;
-    const double usual = f.number("abdomen.usual") * (waist - crotch),
-                 near = 0.5 * (waist - crotch), reach = f.number("abdomen.usual_reach");
-    if (const auto other =
-            foremost_place(f, {crotch + usual - reach * near, crotch + usual + reach * near},
-                           {-half_belly, half_belly}, 1, f.number("abdomen.flat"), 0);
-        other && std::abs(other->p.y() - belly->p.y()) > f.number("abdomen.apart") * s &&
-        other->p.z() > belly->p.z() - f.number("abdomen.as_far") * s) {
-      rival = belly->p;
-      belly = other;
-    }
-    if (!rival && belly->p.y() > waist - AT_WAIST * s) { // it runs on into the chest
+    if (belly->p.y() > waist - AT_WAIST * s) { // it runs on into the chest
       const auto bulge =
           foremost_place(f, {crotch + f.number("abdomen.above_crotch") * s, waist},
                          {-half_belly, half_belly}, 1, f.number("abdomen.flat"), LESS_FAR);

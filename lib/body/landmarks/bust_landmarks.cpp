@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::body {
 
@@ -15,9 +16,11 @@ constexpr double BESIDE_MIDDLE_M = 0.002;   // a side begins here
 constexpr double MUSCLE_HALF_WIDTH = 0.004; // of stature, over which a nipple's front is read
 constexpr double MUSCLE_ABOVE = 0.002;      // of stature: the skin beside a nipple, not its tip
 
-/// Of stature: a belly's upper end may stand out before the chest by this much; of 24 men by 0.002
-/// or by more than 0.005, which is another place.
-constexpr double BELLY_BEFORE = 0.0035;
+/// Of stature, mean of both sides: a belly's upper end that stands out before the chest by less is
+/// not the chest's foremost place. Of 32 bodies among 240 fresh ones on which both compete 29 are
+/// right; the three others lie between 0.0008 and 0.0023.
+constexpr double BELLY_BEFORE = 0.002;
+constexpr double BELLY_UNSURE = 0.0013; // from there to either side one is as good as the other
 /// From `inner` to `outer` beside the mid-plane on one side.
 Span half_front(int side, double inner, double outer) {
   return side == 0 ? Span{inner, outer} : Span{-outer, -inner};
@@ -86,29 +89,74 @@ bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
   return drawn;
 }
 
-/// Where a belly runs out before the chest, the foremost place of the chest is said to be unsure:
-/// with the place, if there is one, that stands out between both ends of the heights.
-void doubt_prominence(const Finder& f, int side, const Vec3& bust_point) {
-  constexpr double AT_END = 0.004, DOUBT = 0.5; // of stature, of the confidence
-  constexpr double PLACES_APART =
-      0.02; // of stature: of 64 fresh bodies on one such place was wrong
-  const std::string name = std::string("bust_prominent") + side_suffix(side);
-  if (!f.has(name))
-    return;
+/// Foremost place of the chest on one side, and the one inside of the heights where a belly, or the
+/// collar, stands out farther at their end.
+struct ChestFront {
+  std::optional<Foremost> most, inside;
+  /// How far the end stands out before the place inside, m; 0 where both are one place.
+  double before() const {
+    return most && inside && most->p.y() < inside->p.y() ? most->p.z() - inside->p.z() : 0;
+  }
+};
+
+ChestFront chest_front(const Finder& f, int side, const Vec3& bust_point) {
   const Span heights{bust_point.y() - f.number("bust.prominent_below") * f.s,
                      bust_point.y() + f.number("bust.prominent_above") * f.s};
-  Landmark& landmark = f.body.landmarks[name];
-  if (landmark.p.y() > heights.low + AT_END * f.s)
+  return {foremost_place(f, heights, chest_half(f, side), 1, PEAKED, 0),
+          foremost_place(f, heights, chest_half(f, side), 1, PEAKED, f.s)};
+}
+
+/// The chest's foremost place on both sides. A belly that runs out before it competes with it; what
+/// both sides say together decides, and a narrow decision is reported.
+void find_prominence(const Finder& f, const std::array<ChestFront, 2>& fronts) {
+  constexpr double DOUBT = 0.5;         // of the confidence
+  constexpr double PLACES_APART = 0.02; // of stature
+  const double before = 0.5 * (fronts[0].before() + fronts[1].before()) / f.s;
+  const bool is_belly = before > BELLY_BEFORE;
+  for (int side = 0; side < 2; ++side) {
+    const ChestFront& front = fronts[side];
+    const auto& chosen = is_belly && front.before() > 0 ? front.most : front.inside;
+    const std::string suffix = side_suffix(side), name = "bust_prominent" + suffix;
+    if (!f.find("bust_prominent", suffix, 2,
+                {{"foremost_of_chest", [&] { return place_of(chosen); }}}) ||
+        front.before() <= 0)
+      continue;
+    const Vec3& other = is_belly ? front.inside->p : front.most->p;
+    Landmark& landmark = f.body.landmarks[name];
+    if ((other - landmark.p).norm() < PLACES_APART * f.s)
+      continue;
+    f.also(name, other);
+    if (std::abs(before - BELLY_BEFORE) > BELLY_UNSURE)
+      continue;
+    landmark.confidence *= DOUBT;
+    f.body.scan.findings.push_back(
+        {"scan.landmark-unlikely"_id, "warning",
+         "belly and chest stand out as far: the chest's foremost place is unsure", name});
+  }
+}
+
+/// Warns of a bust that hangs below where its rules look: below the bust point the chest stands out
+/// clearly farther, and falls back again. Of 137 women among 268 fresh bodies it was one, whose
+/// bust was 83 mm lower; bellies stand out at the end of the heights.
+void doubt_hanging_bust(const Finder& f, int side) {
+  constexpr double DEEPEST = 0.09, BELLY = 0.078, LOWER = 0.02, BEFORE = 0.015; // of stature
+  constexpr double DOUBT = 0.5;                                                 // of the confidence
+  const std::string name = std::string("bust_point") + side_suffix(side);
+  const Vec3 point = f.at(name);
+  const Span across = half_front(side, f.number("bust.inner") * f.s, f.number("bust.outer") * f.s);
+  const auto hanging =
+      foremost_place(f, {point.y() - DEEPEST * f.s, point.y()}, across, 1, PEAKED, 0);
+  if (!hanging)
     return;
-  const auto inside = place_of(foremost_place(f, heights, chest_half(f, side), 1, PEAKED, f.s));
-  const Vec3 other = inside ? *inside : bust_point;
-  if ((other - landmark.p).norm() < PLACES_APART * f.s)
+  const Vec3 off = (hanging->p - point) / f.s;
+  if (off.y() < -BELLY || off.y() > -LOWER || off.z() < BEFORE)
     return;
-  f.also(name, other);
-  landmark.confidence *= DOUBT;
-  f.body.scan.findings.push_back(
-      {"scan.landmark-unlikely"_id, "warning",
-       "the belly runs out before the chest: its foremost place is unsure", name});
+  f.also(name, hanging->p);
+  f.body.landmarks[name].confidence *= DOUBT;
+  char text[120];
+  std::snprintf(text, sizeof text, "the bust may hang: the chest is foremost %.0f mm lower",
+                -1000 * f.s * off.y());
+  f.body.scan.findings.push_back({"scan.landmark-unlikely"_id, "warning", text, name});
 }
 
 } // namespace
@@ -167,6 +215,7 @@ void find_bust(const Finder& f, double pit) {
         }}});
   if (!points)
     return;
+  std::array<ChestFront, 2> fronts;
   double sum = 0;
   int n = 0;
   for (int side = 0; side < 2; ++side) {
@@ -178,20 +227,17 @@ void find_bust(const Finder& f, double pit) {
         is_seen ? points->value[side]
                 : f.corrected("bust_point", suffix, *points->value[side], true);
     f.put("bust_point" + suffix, *point, 2, *points->rule);
-    f.find("bust_prominent", suffix, 2,
-           {{"foremost_of_chest", [&] {
-               return place_of(foremost_place(f,
-                                              {point->y() - f.number("bust.prominent_below") * s,
-                                               point->y() + f.number("bust.prominent_above") * s},
-                                              chest_half(f, side), 1, PEAKED, BELLY_BEFORE));
-             }}});
-    doubt_prominence(f, side, *point);
+    fronts[side] = chest_front(f, side, *point);
     if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
                                 FRONT_HALF_WIDTH * s))
       f.also("bust_point" + suffix, *p);
     sum += point->y();
     ++n;
   }
+  for (int side = 0; side < 2; ++side)
+    if (points->value[side] && f.figure.female > 0.5 && points->rule->name != "bump_of_chest")
+      doubt_hanging_bust(f, side);
+  find_prominence(f, fronts);
   if (n == 2)
     put_level(f, "bust", sum / 2, points->rule->name);
 }

@@ -8,6 +8,8 @@ namespace sloper::body {
 
 namespace {
 
+constexpr double MERGE_HANGS = -0.12; ///< height of the unit vector to the hand: 83 degrees
+
 constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
 constexpr int TRUNK_LEVELS = 8;     ///< between the crotch and TRUNK_TOP
 constexpr double TRUNK_TOP = 0.755; ///< of stature: about the arm pits
@@ -111,7 +113,8 @@ void add_arm(Row& row, const LevelStack& levels, const ArmTrace& arm) {
   row.add("arm_raised", is_there ? std::acos(std::clamp(-arm.out.y(), -1.0, 1.0)) : NONE);
   add_point("arm_end", is_there ? std::optional<Vec3>(arm.at(end + 0.02 * s)) : std::nullopt);
   add_point("arm_pit", is_there && !arm.pit_hidden ? arm.axilla : std::nullopt);
-  add_point("arm_merge", is_there ? arm.merge : std::nullopt);
+  // the bodies learned from show it where the arm hangs; along a level arm it lies elsewhere
+  add_point("arm_merge", is_there && arm.out.y() < MERGE_HANGS ? arm.merge : std::nullopt);
   row.add("arm_length", is_there ? end / s : NONE);
   for (const double part : ARM) {
     if (!is_there) {

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -33,21 +36,64 @@ std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Tria
   return normals;
 }
 
+/// For each vertex a list of numbers, one list after the other.
+class VertexLists {
+public:
+  /// @param n vertices
+  /// @param each calls its argument with (vertex, number) for all entries, twice in the same order
+  template<class Each> VertexLists(std::size_t n, const Each& each) : m_first(n + 1, 0) {
+    each([&](int v, int) { ++m_first[v + 1]; });
+    std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
+    m_numbers.resize(static_cast<std::size_t>(m_first.back()));
+    std::vector<int> at(m_first.begin(), m_first.end() - 1);
+    each([&](int v, int number) { m_numbers[at[v]++] = number; });
+  }
+  std::span<const int> of(int v) const {
+    return std::span(m_numbers).subspan(m_first[v], m_first[v + 1] - m_first[v]);
+  }
+
+private:
+  std::vector<int> m_first, m_numbers;
+};
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+VertexLists neighbours_in(const TriangleMesh& skin) {
+  const std::vector<std::array<int, 2>> edges = edges_of(skin.triangles);
+  return {skin.positions.size(), [&](const auto& add) {
+            for (const auto& [a, b] : edges) {
+              add(a, b);
+              add(b, a);
+            }
+          }};
+}
+
+VertexLists triangles_at(const TriangleMesh& skin) {
+  return {skin.positions.size(), [&](const auto& add) {
+            for (std::size_t f = 0; f < skin.triangles.size(); ++f)
+              for (const int v : skin.triangles[f])
+                add(v, static_cast<int>(f));
+          }};
+}
+
 /// One round of spreading: the displacements of the marked vertices go halfway to the mean of their
 /// neighbours'.
-void spread(const std::vector<std::array<int, 2>>& edges, const std::vector<char>& mark,
+void spread(const VertexLists& neighbours, const std::vector<int>& marked,
             std::vector<Vec3>& displacement) {
-  std::vector<Vec3> sum(displacement.size(), Vec3::Zero());
-  std::vector<int> count(displacement.size(), 0);
-  for (const auto& [a, b] : edges) {
-    sum[a] += displacement[b];
-    sum[b] += displacement[a];
-    ++count[a];
-    ++count[b];
+  std::vector<Vec3> evened;
+  evened.reserve(marked.size());
+  for (const int v : marked) {
+    Vec3 sum = Vec3::Zero();
+    for (const int w : neighbours.of(v))
+      sum += displacement[w];
+    const std::size_t count = neighbours.of(v).size();
+    evened.push_back(count > 0 ? Vec3(0.5 * displacement[v] + 0.5 * sum / count) : displacement[v]);
   }
-  for (std::size_t v = 0; v < displacement.size(); ++v)
-    if (mark[v] && count[v] > 0)
-      displacement[v] = 0.5 * displacement[v] + 0.5 * sum[v] / count[v];
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    displacement[marked[i]] = evened[i];
 }
 
 /// The triangles within so many rings of the marked vertices: `mark` grows with them.
@@ -65,6 +111,40 @@ std::vector<Triangle> triangles_around(const TriangleMesh& skin, std::vector<cha
     mark = std::move(next);
   }
   return around;
+}
+
+/// The skin that a displacement can reach, with numbers of its own: whole skins are far larger.
+struct Patch {
+  TriangleMesh skin;                     ///< its triangles, in the order of the whole skin
+  std::vector<int> vertex;               ///< number in the whole skin, ascending
+  std::vector<char> candidate, may_move; ///< of its vertices
+  std::vector<Triangle> near;            ///< triangles with a candidate
+};
+
+Patch patch_around(const TriangleMesh& skin, const std::vector<char>& candidate,
+                   const std::vector<char>& may_move) {
+  Patch patch;
+  patch.skin.triangles = triangles_around(skin, candidate, SMOOTHINGS);
+  std::vector<int> number(skin.positions.size(), -1);
+  for (const Triangle& t : patch.skin.triangles)
+    for (const int v : t)
+      number[v] = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0)
+      continue;
+    number[v] = static_cast<int>(patch.vertex.size());
+    patch.vertex.push_back(static_cast<int>(v));
+    patch.skin.positions.push_back(skin.positions[v]);
+    patch.candidate.push_back(candidate[v]);
+    patch.may_move.push_back(may_move[v]);
+  }
+  for (Triangle& t : patch.skin.triangles) {
+    for (int& v : t)
+      v = number[v];
+    if (patch.candidate[t[0]] || patch.candidate[t[1]] || patch.candidate[t[2]])
+      patch.near.push_back(t);
+  }
+  return patch;
 }
 
 /// Vertices with skin that looks the other way somewhere within about a cell: by a grid of the
@@ -169,69 +249,81 @@ std::vector<Vec3> wanted_displacements(const TriangleMesh& skin, const std::vect
 }
 
 /// Evens out displacements around triangles that they turn over or nearly so: where the walls of a
-/// slot meet, each vertex would go by itself, and fine skin would lie in folds across the slot.
-void unfold(const std::vector<Vec3>& before, const std::vector<Triangle>& triangles,
-            const std::vector<std::array<int, 2>>& edges, const std::vector<char>& may_move,
-            std::vector<Vec3>& displacement) {
+/// slot meet, each vertex would go by itself, and fine skin would lie in folds across the slot. A
+/// round looks again only at triangles that the last one moved.
+void unfold(const std::vector<Vec3>& before, const Patch& patch, const VertexLists& neighbours,
+            const VertexLists& triangles, std::vector<Vec3>& displacement) {
   constexpr int MOST_ROUNDS = 100;
-  std::vector<char> folded(displacement.size());
+  const std::vector<Triangle>& all = patch.skin.triangles;
+  auto is_folded = [&](int f) {
+    const auto& [a, b, c] = all[f];
+    const Vec3 was = area_normal(before[a], before[b], before[c]);
+    const Vec3 is = area_normal(before[a] + displacement[a], before[b] + displacement[b],
+                                before[c] + displacement[c]);
+    return !(is.dot(was) >= LEAST_TURN * is.norm() * was.norm());
+  };
+  std::vector<char> folded(all.size());
+  std::vector<int> changed(all.size());
+  std::iota(changed.begin(), changed.end(), 0);
   for (int round = 0; round < MOST_ROUNDS; ++round) {
-    std::fill(folded.begin(), folded.end(), 0);
-    bool any = false;
-    for (std::size_t f = 0; f < triangles.size(); ++f) {
-      const auto& [a, b, c] = triangles[f];
-      const Vec3 was = area_normal(before[a], before[b], before[c]);
-      const Vec3 is = area_normal(before[a] + displacement[a], before[b] + displacement[b],
-                                  before[c] + displacement[c]);
-      if (is.dot(was) >= LEAST_TURN * is.norm() * was.norm())
-        continue;
-      for (const int v : {a, b, c})
-        folded[v] = may_move[v];
-      any = true;
-    }
-    if (!any)
+    for (const int f : changed)
+      folded[f] = is_folded(f);
+    std::vector<int> marked;
+    for (std::size_t f = 0; f < all.size(); ++f)
+      if (folded[f])
+        std::copy_if(all[f].begin(), all[f].end(), std::back_inserter(marked),
+                     [&](int v) { return patch.may_move[v]; });
+    if (marked.empty())
       return;
-    spread(edges, folded, displacement);
+    sort_unique(marked);
+    spread(neighbours, marked, displacement);
+    changed.clear();
+    for (const int v : marked)
+      changed.insert(changed.end(), triangles.of(v).begin(), triangles.of(v).end());
+    sort_unique(changed);
   }
 }
 
 } // namespace
 
-OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_move, double gap_m) {
-  const std::vector<Vec3> before = skin.positions;
-  const std::vector<char> candidate = facing_candidates(skin, may_move);
+OpenedSkin open_touching_skin(TriangleMesh& whole, const std::vector<char>& may_move,
+                              double gap_m) {
+  const std::vector<char> candidate = facing_candidates(whole, may_move);
   if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end())
     return {};
+  Patch patch = patch_around(whole, candidate, may_move);
+  TriangleMesh& skin = patch.skin;
+  const std::vector<Vec3> before = skin.positions;
   std::vector<char> wants;
-  const std::vector<Triangle> near = triangles_around(skin, candidate, 0);
-  std::vector<Triangle> around; // triangles to which a displacement can spread
-  std::vector<std::array<int, 2>> edges;
+  std::optional<VertexLists> neighbours, triangles;
   for (int round = 0; round < PARTING_ROUNDS; ++round) {
-    std::vector<Vec3> displacement = wanted_displacements(skin, candidate, near, gap_m, wants);
+    std::vector<Vec3> displacement =
+        wanted_displacements(skin, patch.candidate, patch.near, gap_m, wants);
     if (std::find(wants.begin(), wants.end(), 1) == wants.end())
       break;
-    if (edges.empty()) {
-      around = triangles_around(skin, candidate, SMOOTHINGS);
-      edges = edges_of(around);
+    if (!neighbours) {
+      neighbours.emplace(neighbours_in(skin));
+      triangles.emplace(triangles_at(skin));
     }
-    std::vector<char> rim(
-        displacement.size()); // takes part; what must move keeps its own displacement
+    std::vector<int> rim; // takes part; what must move keeps its own displacement
     for (std::size_t v = 0; v < displacement.size(); ++v)
-      rim[v] = may_move[v] && !wants[v];
+      if (patch.may_move[v] && !wants[v])
+        rim.push_back(static_cast<int>(v));
     for (int k = 0; k < SMOOTHINGS; ++k)
-      spread(edges, rim, displacement);
+      spread(*neighbours, rim, displacement);
     for (std::size_t v = 0; v < displacement.size(); ++v) {
       displacement[v] += skin.positions[v] - before[v];
       const double length = displacement[v].norm();
       if (length > LARGEST_DISPLACEMENT)
         displacement[v] *= LARGEST_DISPLACEMENT / length;
     }
-    unfold(before, around, edges, may_move, displacement);
+    unfold(before, patch, *neighbours, *triangles, displacement);
     for (std::size_t v = 0; v < displacement.size(); ++v)
       skin.positions[v] = before[v] + displacement[v];
   }
   OpenedSkin opened;
   for (std::size_t v = 0; v < before.size(); ++v) {
+    whole.positions[patch.vertex[v]] = skin.positions[v];
     const double moved = (skin.positions[v] - before[v]).norm();
     opened.vertices += moved > 1e-4;
     if (moved <= opened.largest_m)

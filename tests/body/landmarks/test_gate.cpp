@@ -108,6 +108,27 @@ TEST(Dependents, share_the_doubt_of_what_they_rest_on) {
   EXPECT_LT(body.landmarks["olecranon_l"].confidence, 0.5);
 }
 
+TEST(Dependents, what_is_unsteady_or_hardly_believed_is_told) {
+  Body body;
+  body.scan.stature_m = 1.7;
+  auto put = [&](const char* name, double confidence, double spread) {
+    body.landmarks[name] = {Vec3(0.1, 1, 0), 2, "rule", confidence, spread, {}};
+  };
+  put("bust_point_l", 0.5, 0.07);
+  put("bust_point_r", 0.5, 0.01);
+  put("neck_front", 0.12, 0.01);
+  put("crotch", 0.12, 0.07);
+  body.scan.findings.push_back({"scan.crotch-estimated"_id, "warning", "estimated", "crotch"});
+  doubt_dependents(body, 0);
+  std::map<std::string, int> warnings;
+  for (const Finding& finding : body.scan.findings)
+    ++warnings[finding.place];
+  EXPECT_EQ(warnings["bust_point_l"], 1);
+  EXPECT_EQ(warnings["bust_point_r"], 0);
+  EXPECT_EQ(warnings["neck_front"], 1);
+  EXPECT_EQ(warnings["crotch"], 1);
+}
+
 TEST(Parts, a_hand_is_arm_where_the_elbow_is_bent) {
   const Posed bent =
       posed({{"forearm_l", turn(-50, Vec3::UnitX())}, {"forearm_r", turn(-35, Vec3::UnitX())}});

@@ -227,3 +227,58 @@ TEST(Spread, is_the_same_on_every_run) {
   for (const auto& [name, landmark] : a.landmarks)
     EXPECT_EQ(landmark.spread_m, b.landmarks.at(name).spread_m) << name;
 }
+
+/// The chest's foremost place is the chest's where a belly below it rises little, the belly's where
+/// it rises far, and told to be either in between.
+TEST(Belly, that_competes_with_the_chest_is_told) {
+  const TriangleMesh& plain = test::mannequin("m-178-a").mesh;
+  const double s = 1.78;
+  const Body before = test::measure(plain).body;
+  const Vec3 bust = test::in_scan(before, "bust_point_l");
+  auto with_belly = [&](double rise) {
+    TriangleMesh mesh = plain;
+    const std::vector<Vec3> normals = vertex_normals(mesh);
+    auto bulge = [&](double y, double middle, double half) {
+      return std::exp(-std::pow((y - bust.y() - middle * s) / (half * s), 2));
+    };
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      if (Vec3& p = mesh.positions[v]; normals[v].z() > 0.3 && std::abs(p.x()) < 0.1 * s)
+        p.z() += 0.02 * bulge(p.y(), 0.02, 0.015) + rise * bulge(p.y(), -0.05, 0.03);
+    return test::measure(mesh).body;
+  };
+  auto is_told = [](const Body& body) {
+    for (const Finding& finding : body.scan.findings)
+      if (finding.severity == "warning" && finding.place == "bust_prominent_l")
+        return true;
+    return false;
+  };
+  auto above_bust = [](const Body& body) {
+    return body.landmark("bust_prominent_l").y() - body.landmark("bust_point_l").y();
+  };
+  const Body chest = with_belly(0.04), either = with_belly(0.058), belly = with_belly(0.072);
+  EXPECT_GT(above_bust(chest), 0);
+  EXPECT_FALSE(is_told(chest));
+  EXPECT_TRUE(is_told(either));
+  EXPECT_LT(above_bust(belly), 0);
+  EXPECT_FALSE(is_told(belly));
+}
+
+TEST(Bust, that_hangs_below_where_it_is_looked_for_is_told) {
+  const TriangleMesh& plain = test::mannequin("f-165-plus").mesh;
+  const double s = 1.65;
+  const Vec3 bust = test::in_scan(test::measure(plain).body, "bust_point_l");
+  auto is_told = [&](double rise) {
+    TriangleMesh mesh = plain;
+    const std::vector<Vec3> normals = vertex_normals(mesh);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      if (Vec3& p = mesh.positions[v]; normals[v].z() > 0.3 && std::abs(p.x()) < 0.1 * s)
+        p.z() += rise * std::exp(-std::pow((p.y() - bust.y() + 0.06 * s) / (0.02 * s), 2));
+    const Body body = test::measure(mesh).body;
+    for (const Finding& finding : body.scan.findings)
+      if (finding.severity == "warning" && finding.place == "bust_point_l")
+        return true;
+    return false;
+  };
+  EXPECT_FALSE(is_told(0));
+  EXPECT_TRUE(is_told(0.07));
+}
