@@ -130,15 +130,6 @@ public:
     m_result = m_assembly.run(seam_model());
   }
 
-  /// How much cloth is sewn and how surely, m.
-  double worth() const {
-    double sum = 0;
-    for (const auto& [pair, odds] : m_result.pairs)
-      sum +=
-          std::max(2 * probability(odds) - 1, 0.0) * (side(pair[0]).length + side(pair[1]).length);
-    return sum;
-  }
-
   std::vector<SeamGuess> guesses() const {
     std::vector<std::pair<double, SidePair>> found;
     for (const auto& [pair, odds] : m_result.pairs)
@@ -279,6 +270,15 @@ io::Json seam_json(const Pattern& pattern, const SeamGuess& guess) {
 
 } // namespace
 
+/// How much cloth is sewn and how surely, m.
+static double worth(const Pattern& pattern, const std::vector<SeamGuess>& guesses) {
+  double sum = 0;
+  for (const SeamGuess& g : guesses)
+    sum += std::max(2 * g.score - 1, 0.0) *
+           (side_length(pattern, g.seam.a) + side_length(pattern, g.seam.b));
+  return sum;
+}
+
 std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   const SideCorners all = all_corners(pattern),
                     sharp = sharp_corners(pattern, units::radians(STRAIGHT_ON));
@@ -288,10 +288,12 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
     drop_bags(pattern, guesses);
     return with_rim_seams(pattern, std::move(guesses));
   };
+  std::vector<SeamGuess> by_edges = completed(edges.guesses());
   if (sharp == all)
-    return completed(edges.guesses());
-  const Inference sides(pattern, sharp);
-  return completed((sides.worth() > edges.worth() ? sides : edges).guesses());
+    return by_edges;
+  // Judged with their sleeves, collars and bands: a cap is found where sides are whole.
+  std::vector<SeamGuess> by_sides = completed(Inference(pattern, sharp).guesses());
+  return worth(pattern, by_sides) > worth(pattern, by_edges) ? by_sides : by_edges;
 }
 
 std::vector<std::string> panels_apart(const Pattern& pattern) {
