@@ -270,8 +270,7 @@ io::Json seam_json(const Pattern& pattern, const SeamGuess& guess) {
 
 } // namespace
 
-/// How much cloth is sewn and how surely, m.
-static double worth(const Pattern& pattern, const std::vector<SeamGuess>& guesses) {
+double sewn_surely(const Pattern& pattern, const std::vector<SeamGuess>& guesses) {
   double sum = 0;
   for (const SeamGuess& g : guesses)
     sum += std::max(2 * g.score - 1, 0.0) *
@@ -293,7 +292,7 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
     return by_edges;
   // Judged with their sleeves, collars and bands: a cap is found where sides are whole.
   std::vector<SeamGuess> by_sides = completed(Inference(pattern, sharp).guesses());
-  return worth(pattern, by_sides) > worth(pattern, by_edges) ? by_sides : by_edges;
+  return sewn_surely(pattern, by_sides) > sewn_surely(pattern, by_edges) ? by_sides : by_edges;
 }
 
 std::vector<std::string> panels_apart(const Pattern& pattern) {
@@ -315,10 +314,25 @@ std::vector<std::string> panels_apart(const Pattern& pattern) {
 }
 
 io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& guesses,
-                          const std::string& tool) {
+                          const std::string& tool, const std::vector<PieceVersions>& versions) {
   io::Json doc = io::new_document("sewing-seams", 1, tool);
   doc["seams"] = io::Json::array();
   doc["questions"] = io::Json::array();
+  const auto others = [](const PieceVersions& all, std::size_t but) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (k != but)
+        names.insert(names.end(), all[k].begin(), all[k].end());
+    return names;
+  };
+  for (const PieceVersions& all : versions) {
+    for (const std::string& name : others(all, 0))
+      doc["without"].push_back(name);
+    io::Json candidates = io::Json::array();
+    for (std::size_t k = 0; k < std::min<std::size_t>(all.size(), 2); ++k)
+      candidates.push_back({{"pieces", all[k]}, {"without", others(all, k)}});
+    doc["questions"].push_back({{"versions", all}, {"candidates", candidates}});
+  }
   std::vector<char> asked(guesses.size(), 0);
   for (std::size_t k = 0; k < guesses.size(); ++k) {
     const SeamGuess& guess = guesses[k];
