@@ -71,7 +71,7 @@ private:
     if (a.panel == b.panel && !adjacent && says_anything(own) && !around(own))
       odds += UNLIKELY;
     const bool is_half = name_suggests_front(own) || says_back(own);
-    if (is_tube(a, b) && says_sleeve(own) && !is_half)
+    if (is_tube(a, b) && says_sleeve(own) && !says_cuff(own) && !is_half)
       odds += SLEEVE_CLOSES;
     if (a.panel != b.panel && says_sleeve(own) && says_sleeve(other) &&
         says_left(own) != says_left(other))

@@ -44,8 +44,12 @@ PieceVersions keep_first(Pattern& pattern, const std::vector<Unit>& units) {
   PieceVersions out;
   for (const Unit& unit : units) {
     std::vector<std::string>& names = out.emplace_back();
-    for (const int p : unit)
-      names.push_back(pattern.panels[p].name);
+    for (const int p : unit) { // the name of a piece means its mirrored copy too
+      const std::string& name = pattern.panels[p].name;
+      if (std::none_of(names.begin(), names.end(),
+                       [&](const std::string& n) { return n + MIRRORED == name; }))
+        names.push_back(name);
+    }
   }
   pattern = without(pattern, units, 0);
   for (std::size_t k = 1; k < out.size(); ++k)

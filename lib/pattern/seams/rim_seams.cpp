@@ -45,6 +45,7 @@ public:
 
   std::vector<SeamGuess> run() {
     set_in_sleeves();
+    join_raglans();
     return std::move(m_guesses);
   }
 
@@ -216,6 +217,37 @@ private:
       for (std::size_t k = i + 1; k < sleeves.size(); ++k)
         if (mirrored(sleeves[i].panel, sleeves[k].panel) && set_in(sleeves[i], sleeves[k]))
           return;
+  }
+
+  /// Raglan sleeves close on themselves and are sewn to front and back along the whole of both
+  /// sides: one answer tells all of it.
+  void join_raglans() {
+    constexpr double LIKELY = 0.5; // probability
+    for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
+      for (const PanelMirror& m : m_mirrors[p]) {
+        if (m.panel <= p || !says_sleeve(words(p)))
+          continue;
+        std::vector<int> open;
+        std::set<int> others;
+        bool closes = false;
+        for (int k = 0; k < std::ssize(m_guesses); ++k) {
+          const SeamGuess& g = m_guesses[k];
+          const int a = g.seam.a[0].panel, b = g.seam.b[0].panel;
+          if (g.certain || g.score < LIKELY || !g.with.empty() || !touches(g.seam, {p, m.panel}))
+            continue;
+          open.push_back(k);
+          closes = closes || a == b;
+          for (const int other : {a, b})
+            if (other != p && other != m.panel)
+              others.insert(other);
+        }
+        if (!closes || others.size() < 2)
+          continue;
+        SeamGuess& first = m_guesses[open[0]];
+        for (const int k : open)
+          if (k != open[0] && k != first.twin)
+            first.with.push_back(k);
+      }
   }
 
   bool set_in(const Sleeve& one, const Sleeve& other) {
