@@ -284,7 +284,8 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   const Inference edges(pattern, all);
   const auto completed = [&](std::vector<SeamGuess> guesses) {
     settle_by_order(pattern, guesses);
-    drop_bags(pattern, guesses);
+    const std::vector<Seam> continued = continue_seams(pattern, guesses);
+    drop_bags(pattern, continued, guesses);
     return with_rim_seams(pattern, std::move(guesses));
   };
   std::vector<SeamGuess> by_edges = completed(edges.guesses());
