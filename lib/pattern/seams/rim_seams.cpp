@@ -2,6 +2,7 @@
 #include <pattern/seams/band_seams.hpp>
 #include <pattern/seams/rim_seams.hpp>
 #include <pattern/seams/rims.hpp>
+#include <pattern/seams/ring_bands.hpp>
 #include <pattern/seams/seam_sides.hpp>
 #include <sloper/base/units.hpp>
 
@@ -342,7 +343,8 @@ private:
 
 std::vector<SeamGuess> with_rim_seams(const Pattern& pattern, std::vector<SeamGuess> guesses) {
   guesses = with_legs(pattern, std::move(guesses));
-  return with_bands(pattern, RimSeams(pattern, std::move(guesses)).run());
+  guesses = with_bands(pattern, RimSeams(pattern, std::move(guesses)).run());
+  return with_ring_bands(pattern, std::move(guesses));
 }
 
 } // namespace sloper::pattern
