@@ -112,10 +112,11 @@ private:
     if (largest * units::MM >= SMALLEST || largest * units::CM < SMALLEST)
       return units::MM;
     m_pattern.findings.push_back(
-        {"dxf.unit-assumed"_id, "the file says METRIC: in millimetres its largest piece would "
-                                "measure " +
-                                    centimetres(largest * units::MM) +
-                                    ", so centimetres are taken; give --unit mm if it is so small"});
+        {"dxf.unit-assumed"_id,
+         "the file says METRIC: in millimetres its largest piece would "
+         "measure " +
+             centimetres(largest * units::MM) +
+             ", so centimetres are taken; give --unit mm if it is so small"});
     return units::CM;
   }
 

@@ -234,10 +234,10 @@ private:
     return strip;
   }
 
-  /// Cuffs, cut as a pair, on the ends of two sleeves. Those of knit fabrics are cut double, so they
-  /// are not slim, and are stretched more than a neck's rib.
+  /// Cuffs, cut as a pair, on the ends of two sleeves. Those of knit fabrics are cut double, so
+  /// they are not slim, and are stretched more than a neck's rib.
   void add_cuffs() {
-    constexpr double SLIM_CUFF = 1;      // length over width of a cuff cut double
+    constexpr double SLIM_CUFF = 1;       // length over width of a cuff cut double
     constexpr double SHORTEST_CUFF = 0.5; // of the rim's length
     const auto mirrors = panel_mirrors(m_pattern);
     std::vector<int> cuffs;

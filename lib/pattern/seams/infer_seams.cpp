@@ -285,7 +285,7 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   const auto completed = [&](std::vector<SeamGuess> guesses) {
     settle_by_order(pattern, guesses);
     const std::vector<Seam> continued = continue_seams(pattern, guesses);
-    drop_bags(pattern, continued, guesses);
+    drop_bags(pattern, guesses, continued);
     return with_rim_seams(pattern, std::move(guesses));
   };
   std::vector<SeamGuess> by_edges = completed(edges.guesses());

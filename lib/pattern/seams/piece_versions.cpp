@@ -53,9 +53,9 @@ PieceVersions keep_first(Pattern& pattern, const std::vector<Unit>& units) {
   }
   pattern = without(pattern, units, 0);
   for (std::size_t k = 1; k < out.size(); ++k)
-    pattern.findings.push_back({"dxf.piece-left-out"_id,
-                                out[k].front() + " is left out: it is made in place of " +
-                                    out.front().front() + "; name it in --pieces to take it"});
+    pattern.findings.push_back(
+        {"dxf.piece-left-out"_id, out[k].front() + " is left out: it is made in place of " +
+                                      out.front().front() + "; name it in --pieces to take it"});
   return out;
 }
 
@@ -103,7 +103,7 @@ double sewn_together(const Pattern& pattern, const std::vector<Unit>& units) {
 /// Of pieces of one kind, the best alone first, where it is sewn better without the others.
 std::vector<Unit> best_alone(const Pattern& pattern, std::vector<Unit> units) {
   constexpr std::size_t MOST = 8; // versions of one part; more is a library of parts
-  constexpr double BETTER = 0.1; // m of seams: less is no difference, and the file's order counts
+  constexpr double BETTER = 0.1;  // m of seams: less is no difference, and the file's order counts
   if (units.size() < 2 || units.size() > MOST)
     return {};
   std::vector<double> worth;

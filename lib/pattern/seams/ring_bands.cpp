@@ -79,7 +79,8 @@ std::vector<SeamGuess> with_ring_bands(const Pattern& pattern, std::vector<SeamG
       chains.unite(a, b);
   drop_unsure(guesses, [&](const Seam& seam) {
     const int a = seam.a[0].panel, b = seam.b[0].panel;
-    return a != b && seam.kind == "gather" && slim[a] && slim[b] && chains.find(a) == chains.find(b);
+    return a != b && seam.kind == "gather" && slim[a] && slim[b] &&
+           chains.find(a) == chains.find(b);
   });
   const std::vector<Seam> seams = likely_seams(guesses, {});
   std::vector<Rim> rings, others;

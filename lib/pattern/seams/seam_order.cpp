@@ -227,8 +227,8 @@ std::vector<Seam> continue_seams(const Pattern& pattern, std::vector<SeamGuess>&
   return out;
 }
 
-void drop_bags(const Pattern& pattern, const std::vector<Seam>& continued,
-               std::vector<SeamGuess>& guesses) {
+void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses,
+               const std::vector<Seam>& continued) {
   const auto mirrors = panel_mirrors(pattern);
   const auto mirrored = [&](int p, int q) {
     const auto& own = mirrors[p];

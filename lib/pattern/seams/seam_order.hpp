@@ -20,8 +20,8 @@ std::vector<Seam> continue_seams(const Pattern& pattern, std::vector<SeamGuess>&
 /// Takes out guesses that are not certain and would make a bag of two panels that are no mirror
 /// images: next to a certain seam of both, or one that is continued, around a corner of both, as
 /// their hems are.
-void drop_bags(const Pattern& pattern, const std::vector<Seam>& continued,
-               std::vector<SeamGuess>& guesses);
+void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses,
+               const std::vector<Seam>& continued = {});
 
 /// Whether three seams between the same two panels are met in opposite order by the two.
 bool in_order(const Pattern& pattern, const Seam& a, const Seam& b, const Seam& c);

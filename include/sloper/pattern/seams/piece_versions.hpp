@@ -16,8 +16,8 @@ using PieceVersions = std::vector<std::vector<std::string>>;
 /// returns them.
 ///
 /// Legs: two pairs or more that each close on themselves and at both crotch curves. Pieces that are
-/// called collars, or sleeves: where more cloth is sewn more surely (infer_seams()) with one of them
-/// alone than with all; that one is proposed which is sewn best. Costs an inference for each
+/// called collars, or sleeves: where more cloth is sewn more surely (infer_seams()) with one of
+/// them alone than with all; that one is proposed which is sewn best. Costs an inference for each
 /// version.
 std::vector<PieceVersions> take_versions(Pattern& pattern);
 
