@@ -14,6 +14,7 @@
 #include <sloper/pattern/read/read_pattern.hpp>
 #include <sloper/pattern/seams/check_pattern.hpp>
 #include <sloper/pattern/seams/infer_seams.hpp>
+#include <sloper/pattern/seams/piece_versions.hpp>
 #include <sloper/pattern/write/export_pattern.hpp>
 
 #include <iostream>

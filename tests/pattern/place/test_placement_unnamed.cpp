@@ -79,6 +79,48 @@ TEST(PlacementUnnamed, OfTwoPanelsSewnTogetherAtBothSidesTheLargerIsTheBack) {
   EXPECT_LT(middle(mesh, 1).z(), -0.05);
 }
 
+TEST(PlacementUnnamed, ACuffGoesToTheArmOfItsSleeve) {
+  const auto sleeve = [](const std::string& name) {
+    return R"({"name": ")" + name + R"(", "outline": [{"edge": "hem", "path": [["M", -14, 0], ["L", 14, 0]]},
+      {"edge": "a", "path": [["L", 18, 40]]}, {"edge": "first", "path": [["L", 0, 56]]}, {"edge": "second", "path": [["L", -18, 40]]},
+      {"edge": "b", "path": [["L", -14, 0]]}]})";
+  };
+  const auto cuff = [](const std::string& name) {
+    return R"({"name": ")" + name + R"(", "outline": [{"edge": "low", "path": [["M", 0, 0], ["L", 24, 0]]},
+      {"edge": "end", "path": [["L", 24, 6]]}, {"edge": "top", "path": [["L", 0, 6]]}, {"edge": "start", "path": [["L", 0, 0]]}]})";
+  };
+  std::string seams;
+  const auto sew = [&](const std::string& p, const std::string& e, const std::string& q,
+                       const std::string& f) {
+    seams += std::string(seams.empty() ? "" : ", ") + R"({"name": ")" + p + e + R"(", "kind": "gather", "a": [{"panel": ")" + p +
+             R"(", "edge": ")" + e + R"("}], "b": [{"panel": ")" + q + R"(", "edge": ")" + f +
+             R"(", "from": 1, "to": 0}]})";
+  };
+  for (const char* edge : {"side_", "shoulder_"}) {
+    sew("front", std::string(edge) + "l", "back", std::string(edge) + "r");
+    sew("front", std::string(edge) + "r", "back", std::string(edge) + "l");
+  }
+  sew("sleeve 1", "first", "front", "armhole_l");
+  sew("sleeve 1", "second", "back", "armhole_r");
+  sew("sleeve 2", "first", "back", "armhole_l");
+  sew("sleeve 2", "second", "front", "armhole_r");
+  for (const char* k : {"1", "2"}) {
+    sew(std::string("sleeve ") + k, "a", std::string("sleeve ") + k, "b");
+    sew(std::string("cuff ") + k, "top", std::string("sleeve ") + k, "hem");
+    sew(std::string("cuff ") + k, "end", std::string("cuff ") + k, "start");
+  }
+  const Pattern pattern = own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+      tank("front", 43, false) + ", " + tank("back", 60, false) + ", " + sleeve("sleeve 1") + ", " +
+      sleeve("sleeve 2") + ", " + cuff("cuff 1") + ", " + cuff("cuff 2") + R"(], "seams": [)" +
+      seams + "]}");
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  place_panels(pattern, stick_body(25, 1), mesh);
+  EXPECT_NE(mesh.panels[2].part, mesh.panels[3].part);
+  EXPECT_EQ(mesh.panels[4].part, mesh.panels[2].part);
+  EXPECT_EQ(mesh.panels[5].part, mesh.panels[3].part);
+}
+
 TEST(PlacementUnnamed, WhatCannotBeMeantIsTold) {
   Pattern pattern = two_panel_top("front", "back", false);
   pattern.panels.push_back(pattern.panels[0]);

@@ -9,6 +9,7 @@
 #include <pattern/seams/seam_order.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/seams/infer_seams.hpp>
+#include <sloper/pattern/seams/piece_versions.hpp>
 
 #include <algorithm>
 

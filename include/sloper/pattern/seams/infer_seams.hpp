@@ -3,7 +3,6 @@
 /// assembly of all its panels.
 /// Test: tests/pattern/seams/test_infer.cpp
 #include <sloper/io/json_fwd.hpp>
-#include <sloper/pattern/seams/piece_versions.hpp>
 #include <sloper/pattern/seams/seam_guess.hpp>
 
 #include <string>

@@ -2,15 +2,9 @@
 /// Pieces of a style file that are made in place of each other: legs of two lengths, a ribbed
 /// collar or one of shell fabric.
 /// Test: tests/pattern/seams/test_infer.cpp
-#include <sloper/pattern/pattern.hpp>
-
-#include <string>
-#include <vector>
+#include <sloper/pattern/seams/seam_guess.hpp>
 
 namespace sloper::pattern {
-
-/// Versions of one part of the garment, each the names of its pieces; the first is proposed.
-using PieceVersions = std::vector<std::vector<std::string>>;
 
 /// Finds versions in a pattern without seams, takes all but the first of each part out of it, and
 /// returns them.
