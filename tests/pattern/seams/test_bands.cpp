@@ -12,6 +12,8 @@
 #include <sloper/pattern/seams/piece_versions.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 
 namespace sloper::pattern::test::bands {
 namespace {
@@ -208,6 +210,34 @@ TEST(Versions, OfTwoCollarsOneIsMade) {
   one.push_back(panel_text("collar a", box(38, 4)));
   Pattern q = pattern_of(one);
   EXPECT_TRUE(take_versions(q).empty());
+}
+
+/// Files of AccuMark and CLO, which are no part of the project.
+TEST(SharedPatterns, FilesOfPatternProgramsAskFewQuestions) {
+  const char* shared = std::getenv("SLOPER_SHARED");
+  const std::string folder = std::string(shared ? shared : "") + "/data/foreign/dxf-real/";
+  if (!shared || !std::filesystem::exists(folder))
+    GTEST_SKIP();
+  struct Asked {
+    const char* file;
+    std::size_t versions, most; ///< parts with versions; questions in all
+  };
+  // Sides cut up at notches; a raglan sleeve with cuffs; three collars; legs of three lengths; a
+  // stand of three pieces.
+  for (const Asked& asked :
+       {Asked{"GMH1006F18_AAMA.DXF", 0, 0}, Asked{"GMH2446F17_INCLALLOWANCE_AAMA.DXF", 1, 4},
+        Asked{"GMX1006S18-1.DXF", 1, 1}, Asked{"GLX4802S19_AAMA.DXF", 1, 1},
+        Asked{"clo-pattern.dxf", 0, 5}, Asked{"clo2-pattern.dxf", 0, 5}}) {
+    SCOPED_TRACE(asked.file);
+    Pattern p = read_pattern(folder + asked.file, "");
+    const std::vector<PieceVersions> versions = take_versions(p);
+    EXPECT_EQ(versions.size(), asked.versions);
+    const std::vector<SeamGuess> guesses = infer_seams(p);
+    EXPECT_LE(sewing_questions(p, guesses, "test", versions)["questions"].size(), asked.most);
+    for (const SeamGuess& g : guesses)
+      p.seams.push_back(g.seam);
+    EXPECT_TRUE(panels_apart(p).empty()) << "the first answers sew all pieces";
+  }
 }
 
 TEST(Words, ALetterBetweenDigitsIsOfANumber) {
