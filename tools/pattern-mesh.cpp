@@ -14,6 +14,7 @@
 #include <sloper/pattern/read/read_pattern.hpp>
 #include <sloper/pattern/seams/check_pattern.hpp>
 #include <sloper/pattern/seams/infer_seams.hpp>
+#include <sloper/pattern/seams/piece_versions.hpp>
 #include <sloper/pattern/write/export_pattern.hpp>
 
 #include <iostream>
@@ -92,9 +93,12 @@ void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::s
 
 /// Seams of a file that states none. True when all that could be sewn is certain; else the open
 /// questions go to standard output.
-bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
+bool guess_seams(cli::Tool& tool, pattern::Pattern& source, bool pieces_chosen) {
+  std::vector<pattern::PieceVersions> versions;
+  if (!pieces_chosen)
+    versions = pattern::take_versions(source);
   const std::vector<pattern::SeamGuess> guesses = pattern::infer_seams(source);
-  const io::Json document = pattern::sewing_questions(source, guesses, tool.name());
+  const io::Json document = pattern::sewing_questions(source, guesses, tool.name(), versions);
   for (const pattern::SeamGuess& g : guesses)
     if (g.certain) {
       source.seams.push_back(g.seam);
@@ -157,7 +161,7 @@ int run(cli::Tool& tool, const Options& o) {
   }
   const bool may_lack_seams = source.source_format == "dxf" || source.source_format == "clo";
   if (source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn &&
-      !guess_seams(tool, source))
+      !guess_seams(tool, source, !o.pieces.empty()))
     return 1;
   if (o.output.empty())
     throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",

@@ -31,17 +31,22 @@ Words words_of(const std::string& name) {
   Words words;
   add_east_asian(name, words);
   std::string word;
-  char last = 0;
+  char last = 0, before_word = 0;
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   for (char c : name + "_") {
     const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
     if (!letter || (std::isupper(static_cast<unsigned char>(c)) &&
                     std::islower(static_cast<unsigned char>(last)))) {
-      if (!word.empty())
+      // A letter between digits is of a number: autumn 2017 in GMH2446F17BA, not a front.
+      if (!word.empty() && !(word.size() == 1 && is_digit(before_word) && is_digit(c)))
         words.insert(word);
       word.clear();
     }
-    if (letter)
+    if (letter) {
+      if (word.empty())
+        before_word = last;
       word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
     last = c;
   }
   return words;

@@ -17,9 +17,10 @@ public:
   /// Constrained Delaunay triangulation of the loops. @throws Error INPUT when they cross
   FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const std::string& panel);
   int n_boundary() const { return m_n_boundary; }
-  bool
-  insert(const Vec2& p,
-         bool pinned = false); ///< false when p is not inside; a pinned point stays where it is
+  /// The vertex that stands for p from then on; -1 when p is not inside. A pinned point stays where
+  /// it is; where it meets a vertex, or an edge of a line, that vertex or one on that edge is
+  /// taken.
+  int insert(const Vec2& p, bool pinned = false);
   /// Points of a line, pinned, and the edges between them, kept: boundary points are used where
   /// they are met. A stretch that cannot be had as an edge is halved, at last left out.
   void add_line(const std::vector<Vec2>& points);

@@ -11,9 +11,31 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 
 namespace sloper::pattern {
 namespace {
+
+/// What drape cannot use: a triangle without area, or with next to none.
+void require_area(const PanelMesh& mesh, const PanelInfo& panel, const std::string& file) {
+  // A triangle of 15 mm that is 1.5 um high: strain from it would be noise of the coordinates.
+  constexpr double LEAST_HEIGHT = 1e-4; // of the longest edge
+  for (int t = panel.first_triangle; t < panel.first_triangle + panel.n_triangles; ++t) {
+    const Triangle& tri = mesh.triangles[t];
+    const Vec2 a = mesh.pattern[tri[0]], b = mesh.pattern[tri[1]], c = mesh.pattern[tri[2]];
+    const Vec2 u = b - a, v = c - a;
+    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (c - b).squaredNorm()});
+    if (u.x() * v.y() - u.y() * v.x() > LEAST_HEIGHT * longest)
+      continue;
+    const Vec2 where = (a + b + c) / 3 * 100;
+    char text[120];
+    std::snprintf(text, sizeof text, "the mesh has a triangle without area at (%.1f, %.1f) cm",
+                  where.x(), where.y());
+    throw input_error("mesh.flat-triangle"_id, file, panel.name, text,
+                      "move or leave out the corner or the line that lies there, or give another "
+                      "--edge-length");
+  }
+}
 
 void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
   int n = 0;
@@ -72,21 +94,47 @@ double distance_to_line(const std::vector<Vec2>& loop, bool closed, const Vec2& 
   return least;
 }
 
-/// Inner lines as chains of mesh points: where a line comes too near to the outline or to a line
-/// before it, it is left out and told.
+/// Distance to the chains of a line so far, less the stretch that the next point continues.
+double distance_to_own(const std::vector<std::vector<Vec2>>& chains, const Vec2& p) {
+  double least = 1e300;
+  for (std::size_t k = 0; k + 1 < chains.size(); ++k)
+    least = std::min(least, distance_to_line(chains[k], false, p));
+  const std::vector<Vec2>& last = chains.back();
+  if (last.size() > 2)
+    least = std::min(least, distance_to_line({last.begin(), last.end() - 1}, false, p));
+  return least;
+}
+
+/// Inner lines as chains of mesh points: where a line comes too near to the outline, to a line
+/// before it or to itself, it is left out and told. The chain of a closed line ends on the very
+/// point that it starts from.
 std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
                                              const Boundary::PanelBoundary& boundary, double h,
                                              std::vector<Message>& findings) {
-  constexpr double CLEAR = 0.55; // edge lengths
+  constexpr double CLEAR = 0.55;    // edge lengths
+  constexpr double CLOSED_M = 1e-6; // between the ends of a line; readers close gaps up to it
   std::vector<std::vector<Vec2>> out;
   for (const InnerLine& line : panel.lines) {
     const ArcLength arc(line.path);
     const int n = std::max(1, static_cast<int>(std::lround(arc.length() / h)));
     if (arc.length() < 0.5 * h)
       continue;
+    const bool closed = (arc.at(0) - arc.at(arc.length())).norm() < CLOSED_M;
+    if (closed && n < 3) {
+      findings.push_back({"mesh.line-left-out"_id,
+                          panel.name + ": line " + line.name + " is closed and only " +
+                              centimetres(arc.length()) + " long, smaller than the mesh's edges (" +
+                              centimetres(h) + "), and is left out"});
+      continue;
+    }
     std::vector<std::vector<Vec2>> chains(1);
+    std::optional<Vec2> first; // of a closed line, where it is not left out
     int n_left_out = 0;
     for (int k = 0; k <= n; ++k) {
+      if (k == n && first) {
+        chains.back().push_back(*first);
+        continue;
+      }
       Vec2 p = arc.at(arc.length() * k / n);
       bool fits = true;
       for (const auto& loop : boundary.loops) {
@@ -100,12 +148,15 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
       }
       for (const auto& other : out)
         fits = fits && distance_to_line(other, false, p) > CLEAR * h;
+      fits = fits && distance_to_own(chains, p) > CLEAR * h;
       if (fits)
         chains.back().push_back(p);
       else {
         ++n_left_out;
         chains.push_back({});
       }
+      if (k == 0 && closed && fits)
+        first = p;
     }
     for (auto& chain : chains)
       if (chain.size() >= 2)
@@ -233,6 +284,7 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
       mesh.triangles.push_back(
           {t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
     mesh.panels.push_back(info);
+    require_area(mesh, mesh.panels.back(), file);
     list_small_angles(mesh, mesh.panels.back());
   }
   if (memory)

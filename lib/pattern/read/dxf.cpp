@@ -71,7 +71,9 @@ private:
         word = find_value(b.texts, "Units");
     std::transform(word.begin(), word.end(), word.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    if (word.rfind("METRIC", 0) == 0 || word.rfind("MM", 0) == 0)
+    if (word.rfind("METRIC", 0) == 0)
+      return metric_unit();
+    if (word.rfind("MM", 0) == 0)
       return units::MM;
     if (word.rfind("CM", 0) == 0)
       return units::CM;
@@ -91,6 +93,31 @@ private:
                                     (guess == units::MM ? "millimetres" : "inches") +
                                     " are assumed"});
     return guess;
+  }
+
+  /// METRIC means millimetres; CLO writes it over centimetres too. Then no piece would be as large
+  /// as a hand.
+  double metric_unit() {
+    constexpr double SMALLEST = 0.1; // m, of the largest piece of a garment for people
+    double largest = 0;              // file units
+    for (const DxfBlock& block : m_dxf.blocks) {
+      Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+      for (const DxfLine& line : block.lines)
+        for (const Vec2& p : line.points) {
+          low = low.cwiseMin(p);
+          high = high.cwiseMax(p);
+        }
+      largest = std::max(largest, (high - low).maxCoeff());
+    }
+    if (largest * units::MM >= SMALLEST || largest * units::CM < SMALLEST)
+      return units::MM;
+    m_pattern.findings.push_back(
+        {"dxf.unit-assumed"_id,
+         "the file says METRIC: in millimetres its largest piece would "
+         "measure " +
+             centimetres(largest * units::MM) +
+             ", so centimetres are taken; give --unit mm if it is so small"});
+    return units::CM;
   }
 
   /// What orders the pieces, whatever their order in the file: name, then size of the drawing, then

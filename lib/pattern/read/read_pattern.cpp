@@ -171,6 +171,18 @@ std::set<std::string> sewn_panels(const io::Json& sidecar, const std::string& pa
   return names;
 }
 
+/// Names of the pieces that a sidecar leaves out.
+std::vector<std::string> pieces_left(const io::Json& sidecar, const std::string& path) {
+  std::vector<std::string> names;
+  const io::Node root(sidecar, path);
+  if (!root.has("without"))
+    return names;
+  const io::Node list = root.at("without");
+  for (std::size_t k = 0; k < list.size(); ++k)
+    names.push_back(list.at(k).string());
+  return names;
+}
+
 Pattern read_by_format(const io::Json& json, const std::string& path) {
   const std::string format =
       json.is_object() && json.contains("format") && json["format"].is_string()
@@ -230,7 +242,11 @@ Pattern read_pattern(const std::string& path, const PatternChoice& choice) {
     pattern.seams.clear(); // the sidecar replaces what the file says
     read_sewing_seams(pattern, sidecar, choice.sewing);
   }
-  choose_pieces(pattern, choice.pieces, choice.without, path);
+  std::vector<std::string> without = choice.without;
+  if (!choice.sewing.empty())
+    for (std::string& name : pieces_left(sidecar, choice.sewing))
+      without.push_back(std::move(name));
+  choose_pieces(pattern, choice.pieces, without, path);
   if (pattern.name.empty())
     pattern.name = path == "-" ? "pattern" : std::filesystem::path(path).stem().string();
   if (pattern.panels.empty())

@@ -37,6 +37,8 @@ public:
     turn_trunk_panels(m_pattern, m_mesh, m_graph, m_roles);
     for (std::size_t k = 0; k < n; ++k)
       arm_side(k);
+    for (std::size_t k = 0; k < n; ++k)
+      follow_sleeve(k);
     assign_rings(m_pattern, m_mesh, m_graph, m_words, m_roles);
     turn_arm_panels(m_pattern, m_mesh, m_graph, m_roles);
     assign_legs(m_pattern, m_mesh, m_graph, m_roles);
@@ -386,6 +388,30 @@ private:
       role.region = vote >= 0 ? Region::ARM_L : Region::ARM_R;
     }
     role.part = role.region == Region::ARM_L ? "arm_l" : "arm_r";
+  }
+
+  /// What is sewn to a sleeve alone, as a cuff, is on the arm of that sleeve.
+  void follow_sleeve(std::size_t k) {
+    PanelRole& role = m_roles[k];
+    const PlacementHint& hint = m_pattern.panels[k].hint;
+    if ((role.region != Region::ARM_L && role.region != Region::ARM_R) || role.by_shape ||
+        !hint.part.empty() || hint.rigid || says_left(m_words[k]) || says_right(m_words[k]))
+      return;
+    const auto hangs_on_trunk = [&](int p) {
+      const auto near = m_graph.neighbours(p);
+      return std::any_of(near.begin(), near.end(),
+                         [&](int q) { return m_roles[q].region == Region::TRUNK; });
+    };
+    const int own = static_cast<int>(k);
+    if (hangs_on_trunk(own))
+      return;
+    for (int q : m_graph.neighbours(own))
+      if (q != own && hangs_on_trunk(q) &&
+          (m_roles[q].region == Region::ARM_L || m_roles[q].region == Region::ARM_R)) {
+        role.region = m_roles[q].region;
+        role.part = m_roles[q].part;
+        return;
+      }
   }
 
   const Pattern& m_pattern;

@@ -15,7 +15,7 @@ constexpr double CLEAR_VOTE = 0.2;   // of all that is cast
 constexpr double SAME_FACE = 100;    // log-odds
 constexpr double ON_THE_SIDE = 0.4;  // of a panel's width, from its middle: a side seam
 
-constexpr std::size_t ARM = 1, NECK = 2; // of SHAPE_PART_NAMES
+constexpr std::size_t TORSO = 0, ARM = 1, NECK = 2; // of SHAPE_PART_NAMES
 
 using Parts = std::vector<std::array<double, SHAPE_PARTS>>;
 
@@ -81,6 +81,28 @@ bool go_around(const ShapeWitness& witness, std::size_t a, std::size_t b) {
   return sides[0] && sides[1];
 }
 
+/// Of two torso panels that are sewn once: whether each is sewn to one more torso panel at two
+/// places or more, as at side and shoulder, and these two to each other. Around a torso in four
+/// pieces the two are then halves of one face, whether or not they are mirror images.
+bool halves_of_four(const ShapeWitness& witness, const std::vector<std::size_t>& part,
+                    std::size_t a, std::size_t b) {
+  const auto seams = [&](std::size_t p, std::size_t q) {
+    return std::count_if(witness.links().begin(), witness.links().end(), [&](const auto& l) {
+      return (l.a == p && l.b == q) || (l.a == q && l.b == p);
+    });
+  };
+  if (part[a] != TORSO || part[b] != TORSO || seams(a, b) != 1)
+    return false;
+  const auto facing = [&](std::size_t p, std::size_t but) {
+    for (std::size_t q = 0; q < witness.count(); ++q)
+      if (q != p && q != but && part[q] == TORSO && seams(p, q) > 1)
+        return q;
+    return p;
+  };
+  const std::size_t c = facing(a, b), d = facing(b, a);
+  return c != a && d != b && c != d && seams(c, d) == 1;
+}
+
 } // namespace
 
 const RoleModel& role_model() {
@@ -110,7 +132,7 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
     const bool halves = l.middle && !witness.symmetric(l.a);
     const bool trunk = own[l.a] != ARM && own[l.a] != NECK && own[l.a] == own[l.b];
     double score = model.same_face(witness.link(l, own));
-    if (halves)
+    if (halves || halves_of_four(witness, own, l.a, l.b))
       score = SAME_FACE;
     else if (trunk && go_around(witness, l.a, l.b))
       score = -SAME_FACE;

@@ -95,6 +95,7 @@ public:
           return says_skirt(w) && !any_begins(w, {"skirt", "gore"});
         },
         false);
+    add_cuffs();
     join_halves();
     return std::move(m_guesses);
   }
@@ -212,7 +213,8 @@ private:
   struct Strip {
     const SeamSide *long_side = nullptr, *end = nullptr, *start = nullptr;
   };
-  std::optional<Strip> strip_of(int p) const {
+  /// @param slim  least ratio of its length to its width
+  std::optional<Strip> strip_of(int p, double slim = SLIM) const {
     Strip strip;
     double outline = 0;
     for (const SeamSide& s : m_sides) {
@@ -225,11 +227,52 @@ private:
     if (!strip.long_side || strip.long_side->after < 0 || strip.long_side->before < 0)
       return std::nullopt;
     const double width = 0.5 * (outline - 2 * strip.long_side->length);
-    if (!(strip.long_side->length > SLIM * width))
+    if (!(strip.long_side->length > slim * width))
       return std::nullopt;
     strip.end = &m_sides[strip.long_side->after];
     strip.start = &m_sides[strip.long_side->before];
     return strip;
+  }
+
+  /// Cuffs, cut as a pair, on the ends of two sleeves. Those of knit fabrics are cut double, so
+  /// they are not slim, and are stretched more than a neck's rib.
+  void add_cuffs() {
+    constexpr double SLIM_CUFF = 1;       // length over width of a cuff cut double
+    constexpr double SHORTEST_CUFF = 0.5; // of the rim's length
+    const auto mirrors = panel_mirrors(m_pattern);
+    std::vector<int> cuffs;
+    for (int p = 0; p < count(); ++p)
+      if (says_cuff(words(p)) && !sewn_for_certain(p) && strip_of(p, SLIM_CUFF))
+        cuffs.push_back(p);
+    const auto is_image = [&](const PanelMirror& m) { return m.panel == cuffs[1]; };
+    if (cuffs.size() != 2 ||
+        std::none_of(mirrors[cuffs[0]].begin(), mirrors[cuffs[0]].end(), is_image))
+      return;
+    const std::vector<Seam> seams = likely_seams(m_guesses, {cuffs[0], cuffs[1]});
+    std::vector<Edges> ends;
+    for (const Rim& r : rims_of(m_pattern, seams)) {
+      const double share = strip_of(cuffs[0], SLIM_CUFF)->long_side->length / r.length;
+      const Edges around = behind_longest_seam(m_pattern, r, seams);
+      if (share > SHORTEST_CUFF && share < LONGEST_BAND && !around.empty() &&
+          std::all_of(r.edges.begin(), r.edges.end(),
+                      [&](const RimEdge& e) { return says_sleeve(words(e.panel)); }))
+        ends.push_back(around);
+    }
+    if (ends.size() != 2 || std::abs(std::log(length_of(ends[0]) / length_of(ends[1]))) > SAME_END)
+      return;
+    bool sure = true;
+    for (const Edges& end : ends)
+      sure = sure && is_certain(m_guesses, seams, end);
+    for (SeamGuess& g : m_guesses) // that closed a cuff the other way
+      g.certain = g.certain && !touches(g.seam, {cuffs[0], cuffs[1]});
+    drop_unsure(m_guesses, [&](const Seam& seam) {
+      return touches(seam, {cuffs[0], cuffs[1]}) || takes_any(seam, ends[0]) ||
+             takes_any(seam, ends[1]);
+    });
+    const int begin = std::ssize(m_guesses);
+    for (std::size_t k = 0; k < 2; ++k)
+      add_band(cuffs[k], *strip_of(cuffs[k], SLIM_CUFF), ends[k], "-sleeve", sure);
+    together(begin);
   }
 
   template<class Says> void add_strip(Says says, bool neck) {
@@ -262,13 +305,19 @@ private:
     const bool sure = is_certain(m_guesses, seams, around);
     drop_unsure(m_guesses,
                 [&](const Seam& seam) { return touches(seam, {p}) || takes_any(seam, around); });
+    const int first = std::ssize(m_guesses);
+    add_band(p, strip, around, neck ? "-neck" : "-waist", sure);
+    together(first);
+  }
+
+  /// Sews a strip on a rim, and its ends to each other.
+  void add_band(int p, const Strip& strip, const Edges& around, const char* where, bool sure) {
     Seam seam;
-    seam.name = panel(p).name + (neck ? "-neck" : "-waist");
+    seam.name = panel(p).name + where;
     seam.kind = "gather";
     seam.ease = "rib";
     seam.a = whole(edges_of(*strip.long_side), true);
     seam.b = turned(stretch(around, 0, length_of(around)));
-    const int first = std::ssize(m_guesses);
     add(std::move(seam), sure);
     if (std::abs(std::log(strip.end->length / strip.start->length)) > SAME_END)
       return;
@@ -277,7 +326,6 @@ private:
     ends.a = whole(edges_of(*strip.end), true);
     ends.b = whole(edges_of(*strip.start), false);
     add(std::move(ends), sure);
-    together(first);
   }
 
   /// The neck from the corner that is nearest to the middle of its shortest part, which is the

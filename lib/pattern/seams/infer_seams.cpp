@@ -71,7 +71,7 @@ private:
     if (a.panel == b.panel && !adjacent && says_anything(own) && !around(own))
       odds += UNLIKELY;
     const bool is_half = name_suggests_front(own) || says_back(own);
-    if (is_tube(a, b) && says_sleeve(own) && !is_half)
+    if (is_tube(a, b) && says_sleeve(own) && !says_cuff(own) && !is_half)
       odds += SLEEVE_CLOSES;
     if (a.panel != b.panel && says_sleeve(own) && says_sleeve(other) &&
         says_left(own) != says_left(other))
@@ -128,15 +128,6 @@ public:
       : m_pattern(pattern), m_sides(seam_sides(pattern, corners, SHORTEST)),
         m_witness(pattern, m_sides), m_assembly(m_witness, NamesSay(pattern, m_sides).all()) {
     m_result = m_assembly.run(seam_model());
-  }
-
-  /// How much cloth is sewn and how surely, m.
-  double worth() const {
-    double sum = 0;
-    for (const auto& [pair, odds] : m_result.pairs)
-      sum +=
-          std::max(2 * probability(odds) - 1, 0.0) * (side(pair[0]).length + side(pair[1]).length);
-    return sum;
   }
 
   std::vector<SeamGuess> guesses() const {
@@ -279,19 +270,30 @@ io::Json seam_json(const Pattern& pattern, const SeamGuess& guess) {
 
 } // namespace
 
+double sewn_surely(const Pattern& pattern, const std::vector<SeamGuess>& guesses) {
+  double sum = 0;
+  for (const SeamGuess& g : guesses)
+    sum += std::max(2 * g.score - 1, 0.0) *
+           (side_length(pattern, g.seam.a) + side_length(pattern, g.seam.b));
+  return sum;
+}
+
 std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   const SideCorners all = all_corners(pattern),
                     sharp = sharp_corners(pattern, units::radians(STRAIGHT_ON));
   const Inference edges(pattern, all);
   const auto completed = [&](std::vector<SeamGuess> guesses) {
     settle_by_order(pattern, guesses);
-    drop_bags(pattern, guesses);
+    const std::vector<Seam> continued = continue_seams(pattern, guesses);
+    drop_bags(pattern, guesses, continued);
     return with_rim_seams(pattern, std::move(guesses));
   };
+  std::vector<SeamGuess> by_edges = completed(edges.guesses());
   if (sharp == all)
-    return completed(edges.guesses());
-  const Inference sides(pattern, sharp);
-  return completed((sides.worth() > edges.worth() ? sides : edges).guesses());
+    return by_edges;
+  // Judged with their sleeves, collars and bands: a cap is found where sides are whole.
+  std::vector<SeamGuess> by_sides = completed(Inference(pattern, sharp).guesses());
+  return sewn_surely(pattern, by_sides) > sewn_surely(pattern, by_edges) ? by_sides : by_edges;
 }
 
 std::vector<std::string> panels_apart(const Pattern& pattern) {
@@ -313,10 +315,25 @@ std::vector<std::string> panels_apart(const Pattern& pattern) {
 }
 
 io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& guesses,
-                          const std::string& tool) {
+                          const std::string& tool, const std::vector<PieceVersions>& versions) {
   io::Json doc = io::new_document("sewing-seams", 1, tool);
   doc["seams"] = io::Json::array();
   doc["questions"] = io::Json::array();
+  const auto others = [](const PieceVersions& all, std::size_t but) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (k != but)
+        names.insert(names.end(), all[k].begin(), all[k].end());
+    return names;
+  };
+  for (const PieceVersions& all : versions) {
+    for (const std::string& name : others(all, 0))
+      doc["without"].push_back(name);
+    io::Json candidates = io::Json::array();
+    for (std::size_t k = 0; k < std::min<std::size_t>(all.size(), 2); ++k)
+      candidates.push_back({{"pieces", all[k]}, {"without", others(all, k)}});
+    doc["questions"].push_back({{"versions", all}, {"candidates", candidates}});
+  }
   std::vector<char> asked(guesses.size(), 0);
   for (std::size_t k = 0; k < guesses.size(); ++k) {
     const SeamGuess& guess = guesses[k];

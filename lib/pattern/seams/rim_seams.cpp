@@ -2,6 +2,7 @@
 #include <pattern/seams/band_seams.hpp>
 #include <pattern/seams/rim_seams.hpp>
 #include <pattern/seams/rims.hpp>
+#include <pattern/seams/ring_bands.hpp>
 #include <pattern/seams/seam_sides.hpp>
 #include <sloper/base/units.hpp>
 
@@ -45,6 +46,7 @@ public:
 
   std::vector<SeamGuess> run() {
     set_in_sleeves();
+    join_raglans();
     return std::move(m_guesses);
   }
 
@@ -218,6 +220,37 @@ private:
           return;
   }
 
+  /// Raglan sleeves close on themselves and are sewn to front and back along the whole of both
+  /// sides: one answer tells all of it.
+  void join_raglans() {
+    constexpr double LIKELY = 0.5; // probability
+    for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
+      for (const PanelMirror& m : m_mirrors[p]) {
+        if (m.panel <= p || !says_sleeve(words(p)))
+          continue;
+        std::vector<int> open;
+        std::set<int> others;
+        bool closes = false;
+        for (int k = 0; k < std::ssize(m_guesses); ++k) {
+          const SeamGuess& g = m_guesses[k];
+          const int a = g.seam.a[0].panel, b = g.seam.b[0].panel;
+          if (g.certain || g.score < LIKELY || !g.with.empty() || !touches(g.seam, {p, m.panel}))
+            continue;
+          open.push_back(k);
+          closes = closes || a == b;
+          for (const int other : {a, b})
+            if (other != p && other != m.panel)
+              others.insert(other);
+        }
+        if (!closes || others.size() < 2)
+          continue;
+        SeamGuess& first = m_guesses[open[0]];
+        for (const int k : open)
+          if (k != open[0] && k != first.twin)
+            first.with.push_back(k);
+      }
+  }
+
   bool set_in(const Sleeve& one, const Sleeve& other) {
     const std::set<int> own = {one.panel, other.panel};
     const std::vector<Seam> seams = likely_seams(m_guesses, own);
@@ -310,7 +343,8 @@ private:
 
 std::vector<SeamGuess> with_rim_seams(const Pattern& pattern, std::vector<SeamGuess> guesses) {
   guesses = with_legs(pattern, std::move(guesses));
-  return with_bands(pattern, RimSeams(pattern, std::move(guesses)).run());
+  guesses = with_bands(pattern, RimSeams(pattern, std::move(guesses)).run());
+  return with_ring_bands(pattern, std::move(guesses));
 }
 
 } // namespace sloper::pattern

@@ -132,13 +132,109 @@ std::optional<double> turn_between(const Pattern& pattern, int p, const Seam& on
 
 } // namespace
 
-void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
+namespace {
+
+/// Whether two seams of the same two panels are next to each other around a corner of both.
+bool make_bag(const Pattern& pattern, const Seam& one, const Seam& other) {
+  const auto [p, q] = panels_of(one);
+  if (p < 0 || p == q || panels_of(other) != panels_of(one))
+    return false;
+  const auto a = turn_between(pattern, p, one, other), b = turn_between(pattern, q, one, other);
+  return a && b && *a + *b > BAG;
+}
+
+/// The edges that follow both sides of a seam at one end, where both outlines go straight on.
+std::optional<std::array<Run, 2>> onward(const Pattern& pattern, const Seam& seam, bool at_end) {
+  constexpr double STRAIGHT = 25; // degrees: CAD files cut sides up at corners that turn by less
+  std::array<Run, 2> out;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::vector<Run>& side = k == 0 ? seam.a : seam.b;
+    const Run& run = at_end ? side.back() : side.front();
+    const Panel& panel = pattern.panels[run.panel];
+    if (std::abs(run.to - run.from) < 1)
+      return std::nullopt;
+    int edge = run.edge;
+    if ((run.from < run.to) == at_end)
+      edge = next_edge(panel, run.edge);
+    else
+      while (next_edge(panel, edge) != run.edge)
+        edge = next_edge(panel, edge);
+    const bool ahead = (run.from < run.to) == at_end;
+    const double turn =
+        ahead ? turn_between(panel, run.edge, edge) : turn_between(panel, edge, run.edge);
+    if (edge == run.edge || std::abs(turn) > STRAIGHT)
+      return std::nullopt;
+    out[k] = {run.panel, edge, run.from, run.to};
+  }
+  return out;
+}
+
+bool takes(const Seam& seam, const Run& run) {
+  for (const auto* side : {&seam.a, &seam.b})
+    for (const Run& r : *side)
+      if (r.panel == run.panel && r.edge == run.edge)
+        return true;
+  return false;
+}
+
+} // namespace
+
+std::vector<Seam> continue_seams(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
+  constexpr double SCORE = 0.9;       // it may be a slit
+  constexpr double AS_LONG = 0.02;    // logarithm of lengths
+  constexpr double SHORTEST_M = 0.03; // what is shorter is the turn of a hem
+  const std::size_t known = guesses.size();
+  std::vector<Seam> out;
+  for (std::size_t k = 0; k < known; ++k) {
+    if (!guesses[k].certain || panels_of(guesses[k].seam)[0] == panels_of(guesses[k].seam)[1])
+      continue;
+    for (const bool at_end : {false, true}) {
+      const auto next = onward(pattern, guesses[k].seam, at_end);
+      if (!next || std::any_of(guesses.begin(), guesses.end(), [&](const SeamGuess& g) {
+            return takes(g.seam, (*next)[0]) || takes(g.seam, (*next)[1]);
+          }))
+        continue;
+      const double a = run_length(pattern, (*next)[0]), b = run_length(pattern, (*next)[1]);
+      if (std::min(a, b) < SHORTEST_M || std::abs(std::log(a / b)) > AS_LONG)
+        continue;
+      Seam seam;
+      seam.name = guesses[k].seam.name + " onward";
+      seam.a = {(*next)[0]};
+      seam.b = {(*next)[1]};
+      if (std::none_of(guesses.begin(), guesses.end(), [&](const SeamGuess& g) {
+            return !g.certain && make_bag(pattern, g.seam, seam);
+          }))
+        continue;
+      guesses.push_back(rim_guess(seam, false, SCORE));
+      out.push_back(std::move(seam));
+    }
+  }
+  const auto mirrors = panel_mirrors(pattern);
+  const auto mirrored = [&](int p, int q) {
+    return std::any_of(mirrors[p].begin(), mirrors[p].end(),
+                       [&](const PanelMirror& m) { return m.panel == q && p != q; });
+  };
+  for (std::size_t i = known; i < guesses.size(); ++i)
+    for (std::size_t k = i + 1; k < guesses.size(); ++k) {
+      const auto [a, b] = panels_of(guesses[i].seam);
+      const auto [c, d] = panels_of(guesses[k].seam);
+      if (guesses[i].twin < 0 && guesses[k].twin < 0 &&
+          ((mirrored(a, c) && mirrored(b, d)) || (mirrored(a, d) && mirrored(b, c)))) {
+        guesses[i].twin = static_cast<int>(k);
+        guesses[k].twin = static_cast<int>(i);
+      }
+    }
+  return out;
+}
+
+void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses,
+               const std::vector<Seam>& continued) {
   const auto mirrors = panel_mirrors(pattern);
   const auto mirrored = [&](int p, int q) {
     const auto& own = mirrors[p];
     return std::any_of(own.begin(), own.end(), [&](const PanelMirror& m) { return m.panel == q; });
   };
-  std::vector<Seam> known;
+  std::vector<Seam> known = continued;
   for (const SeamGuess& g : guesses)
     if (g.certain)
       known.push_back(g.seam);
@@ -148,13 +244,8 @@ void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
     const int q = ends[1];
     if (p < 0 || p == q || mirrored(p, q))
       return false;
-    return std::any_of(known.begin(), known.end(), [&](const Seam& other) {
-      if (panels_of(other) != panels_of(seam))
-        return false;
-      const auto a = turn_between(pattern, p, seam, other),
-                 b = turn_between(pattern, q, seam, other);
-      return a && b && *a + *b > BAG;
-    });
+    return std::any_of(known.begin(), known.end(),
+                       [&](const Seam& other) { return make_bag(pattern, seam, other); });
   });
 }
 

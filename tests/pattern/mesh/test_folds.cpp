@@ -220,6 +220,53 @@ TEST(Lines, MarksInsideAPanelBecomeMeshEdges) {
   }
 }
 
+double least_height(const PanelMesh& mesh) { // of a triangle, in its longest edge
+  double least = 1;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec2 u = mesh.pattern[t[1]] - mesh.pattern[t[0]],
+               v = mesh.pattern[t[2]] - mesh.pattern[t[0]];
+    least =
+        std::min(least, (u.x() * v.y() - u.y() * v.x()) /
+                            std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()}));
+  }
+  return least;
+}
+
+PanelMesh meshed_with(const std::string& lines, double h) {
+  std::string text = tube_text();
+  text.replace(text.find(R"("outline")"), 0, R"("lines": [)" + lines + "], ");
+  return mesh_pattern(own(text), h, "t");
+}
+
+TEST(Lines, AClosedMarkIsMeshedAsARingWithoutFlatTriangles) {
+  const std::string ring =
+      R"({"name": "ring", "path": [["M", -8, 25], ["A", 8, 0, 1, 8, 25], ["A", 8, 0, 1, -8, 25]]})";
+  for (double h : {0.008, 0.012, 0.015, 0.03}) {
+    const PanelMesh mesh = meshed_with(ring, h);
+    EXPECT_GT(smallest_angle_deg(mesh), 25) << h;
+    int n_on = 0;
+    for (const Vec2& p : mesh.pattern)
+      n_on += std::abs((p - Vec2(0, 0.25)).norm() - 0.08) < 1e-6;
+    EXPECT_EQ(n_on, std::lround(0.16 * units::PI / h)) << h;
+  }
+}
+
+TEST(Lines, MarksThatMeetThemselvesOrOthersLeaveNoFlatTriangle) {
+  const std::vector<std::string> lines = {
+      // an eight; a square; a dart drawn as a V; the same line to and fro
+      R"({"name": "eight", "path": [["M", 0, 25], ["C", 20, 45, 20, 5, 0, 25], ["C", -20, 45, -20, 5, 0, 25]]})",
+      R"({"name": "square", "path": [["M", -6, 20], ["L", 6, 20], ["L", 6, 32], ["L", -6, 32], ["L", -6, 20]]})",
+      R"({"name": "v", "path": [["M", -1, 10], ["L", 0, 30], ["L", 1, 10]]})",
+      R"({"name": "twice", "path": [["M", -8, 20], ["L", 8, 20], ["L", -8, 20]]})",
+      // the middle of a long stretch, halved, lies on the end of another line
+      R"({"name": "end", "path": [["M", 0, 10], ["L", 0, 24]]}, {"name": "over", "path": [["M", -1.05, 24], ["L", 1.05, 24]]})",
+      // a button
+      R"({"name": "button", "path": [["M", -0.5, 25], ["A", 0.5, 0, 1, 0.5, 25], ["A", 0.5, 0, 1, -0.5, 25]]})"};
+  for (const std::string& line : lines)
+    for (double h : {0.006, 0.012, 0.015, 0.021})
+      EXPECT_GT(least_height(meshed_with(line, h)), 0.1) << h << ": " << line;
+}
+
 TEST(Tapes, ShortenWhatRunsAlongThemAndNothingElse) {
   Pattern pattern = own(tube_text());
   const PanelMesh before = mesh_pattern(pattern, 0.015, "t");

@@ -48,6 +48,21 @@ TEST(Mesh, AnEdgeLengthFarTooSmallIsRefusedBeforeTheMemoryIsFull) {
   EXPECT_THROW(mesh_pattern(own(tube_text()), 1e-5, "t"), Error);
 }
 
+TEST(Mesh, ATriangleWithoutAreaIsRefusedWithItsPanelAndPlace) {
+  const Pattern spike = own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "t", "panels": [{"name": "spike", "outline": [
+      {"edge": "b", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "r", "path": [["L", 40, 40]]},
+      {"edge": "t", "path": [["L", 39.9999, 0.001]]}, {"edge": "l", "path": [["L", 0, 0]]}]}]})");
+  try {
+    mesh_pattern(spike, 0.015, "t.json");
+    FAIL() << "meshed";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::INPUT);
+    EXPECT_EQ(e.place(), "spike");
+    EXPECT_NE(e.fact().find("without area at (1."), std::string::npos) << e.fact();
+  }
+}
+
 TEST(Mesh, NoTriangleLiesOnThreeBoundaryVertices) {
   const PanelMesh mesh = mesh_pattern(own(tube_text()), 0.015, "test.json");
   std::vector<char> boundary(mesh.pattern.size(), 0);

@@ -79,6 +79,99 @@ TEST(PlacementUnnamed, OfTwoPanelsSewnTogetherAtBothSidesTheLargerIsTheBack) {
   EXPECT_LT(middle(mesh, 1).z(), -0.05);
 }
 
+TEST(PlacementUnnamed, ACuffGoesToTheArmOfItsSleeve) {
+  const auto sleeve = [](const std::string& name) {
+    return R"({"name": ")" + name +
+           R"(", "outline": [{"edge": "hem", "path": [["M", -14, 0], ["L", 14, 0]]},
+      {"edge": "a", "path": [["L", 18, 40]]}, {"edge": "first", "path": [["L", 0, 56]]}, {"edge": "second", "path": [["L", -18, 40]]},
+      {"edge": "b", "path": [["L", -14, 0]]}]})";
+  };
+  const auto cuff = [](const std::string& name) {
+    return R"({"name": ")" + name +
+           R"(", "outline": [{"edge": "low", "path": [["M", 0, 0], ["L", 24, 0]]},
+      {"edge": "end", "path": [["L", 24, 6]]}, {"edge": "top", "path": [["L", 0, 6]]}, {"edge": "start", "path": [["L", 0, 0]]}]})";
+  };
+  std::string seams;
+  const auto sew = [&](const std::string& p, const std::string& e, const std::string& q,
+                       const std::string& f) {
+    seams += std::string(seams.empty() ? "" : ", ") + R"({"name": ")" + p + e +
+             R"(", "kind": "gather", "a": [{"panel": ")" + p + R"(", "edge": ")" + e +
+             R"("}], "b": [{"panel": ")" + q + R"(", "edge": ")" + f +
+             R"(", "from": 1, "to": 0}]})";
+  };
+  for (const char* edge : {"side_", "shoulder_"}) {
+    sew("front", std::string(edge) + "l", "back", std::string(edge) + "r");
+    sew("front", std::string(edge) + "r", "back", std::string(edge) + "l");
+  }
+  sew("sleeve 1", "first", "front", "armhole_l");
+  sew("sleeve 1", "second", "back", "armhole_r");
+  sew("sleeve 2", "first", "back", "armhole_l");
+  sew("sleeve 2", "second", "front", "armhole_r");
+  for (const char* k : {"1", "2"}) {
+    sew(std::string("sleeve ") + k, "a", std::string("sleeve ") + k, "b");
+    sew(std::string("cuff ") + k, "top", std::string("sleeve ") + k, "hem");
+    sew(std::string("cuff ") + k, "end", std::string("cuff ") + k, "start");
+  }
+  const Pattern pattern =
+      own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+          tank("front", 43, false) + ", " + tank("back", 60, false) + ", " + sleeve("sleeve 1") +
+          ", " + sleeve("sleeve 2") + ", " + cuff("cuff 1") + ", " + cuff("cuff 2") +
+          R"(], "seams": [)" + seams + "]}");
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  place_panels(pattern, stick_body(25, 1), mesh);
+  EXPECT_NE(mesh.panels[2].part, mesh.panels[3].part);
+  EXPECT_EQ(mesh.panels[4].part, mesh.panels[2].part);
+  EXPECT_EQ(mesh.panels[5].part, mesh.panels[3].part);
+}
+
+/// Half of a bodice: hem, middle or side, neck, shoulder, armhole, side; `width` cm at the hem.
+std::string half_bodice(const std::string& name, double width, double neck, bool turned) {
+  std::vector<std::pair<const char*, Vec2>> corners = {
+      {"hem", {0, 0}},        {"side", {width, 0}}, {"armhole", {width + 1, 26}},
+      {"shoulder", {16, 46}}, {"neck", {8, 49}},    {"middle", {0, neck}}};
+  const auto point = [&](const Vec2& p) {
+    return std::to_string(turned ? -p.x() : p.x()) + ", " + std::to_string(p.y());
+  };
+  std::string outline;
+  const std::size_t n = corners.size();
+  for (std::size_t k = 0; k < n; ++k) { // turned, the outline runs the other way
+    const std::size_t at = turned ? n - 1 - k : k;
+    const Vec2 &from = corners[turned ? (at + 1) % n : at].second,
+               &to = corners[turned ? at : (at + 1) % n].second;
+    outline += std::string(k ? ", " : "") + R"({"edge": ")" + corners[at].first +
+               R"(", "path": [)" + (k ? "" : R"(["M", )" + point(from) + "], ") + R"(["L", )" +
+               point(to) + "]]}";
+  }
+  return R"({"name": ")" + name + R"(", "outline": [)" + outline + "]}";
+}
+
+TEST(PlacementUnnamed, UnequalHalvesOfABodiceAreEachOnOneFace) {
+  std::string seams;
+  const auto sew = [&](const std::string& p, const std::string& q, const char* edge) {
+    seams += std::string(seams.empty() ? "" : ", ") + R"({"name": ")" + p + edge +
+             R"(", "kind": "gather", "a": [{"panel": ")" + p + R"(", "edge": ")" + edge +
+             R"("}], "b": [{"panel": ")" + q + R"(", "edge": ")" + edge +
+             R"(", "from": 1, "to": 0}]})";
+  };
+  sew("P1", "P2", "middle"); // fronts
+  sew("P3", "P4", "middle"); // backs
+  for (const char* edge : {"side", "shoulder"}) {
+    sew("P1", "P3", edge);
+    sew("P2", "P4", edge);
+  }
+  const Pattern pattern =
+      own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+          half_bodice("P1", 22, 33, false) + ", " + half_bodice("P2", 26, 38, true) + ", " +
+          half_bodice("P3", 24, 46, true) + ", " + half_bodice("P4", 21, 44, false) +
+          R"(], "seams": [)" + seams + "]}");
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  place_panels(pattern, stick_body(25, 1), mesh);
+  const auto front = [&](std::size_t k) { return middle(mesh, k).z() > 0; };
+  EXPECT_EQ(front(0), front(1));
+  EXPECT_EQ(front(2), front(3));
+  EXPECT_NE(front(0), front(2));
+}
+
 TEST(PlacementUnnamed, WhatCannotBeMeantIsTold) {
   Pattern pattern = two_panel_top("front", "back", false);
   pattern.panels.push_back(pattern.panels[0]);

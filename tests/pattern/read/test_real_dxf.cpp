@@ -212,6 +212,15 @@ TEST(RealDxf, TheUnitThatTheUserStatesCounts) {
       0.12, 1e-12);
 }
 
+TEST(RealDxf, MetricMayMeanCentimetres) {
+  const Pattern small = read_dxf(file(block("A", polyline(box(60, 40)))), "p.dxf"),
+                usual = read_dxf(file(block("A", polyline(box(600, 400)))), "p.dxf");
+  EXPECT_NEAR(outline_area(small.panels[0]), 0.24, 1e-12);
+  EXPECT_TRUE(found(small, "centimetres are taken"));
+  EXPECT_NEAR(outline_area(usual.panels[0]), 0.24, 1e-12);
+  EXPECT_FALSE(found(usual, "centimetres are taken"));
+}
+
 TEST(RealDxf, AFlatDrawingHasAPieceForEachOutline) {
   std::string lines;
   const auto draw = [&](const Points& points) {

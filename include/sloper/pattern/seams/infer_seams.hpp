@@ -14,6 +14,10 @@ namespace sloper::pattern {
 /// plausible seams that the best assembly does without. 0.1 s for 100 edges, 3 s for 500.
 std::vector<SeamGuess> infer_seams(const Pattern& pattern);
 
+/// How much cloth guesses sew and how surely: the sum of 2 p - 1 times the lengths of both sides,
+/// m, over those of a probability p above 0.5.
+double sewn_surely(const Pattern& pattern, const std::vector<SeamGuess>& guesses);
+
 /// Names of panels that are not connected by seams to the largest connected group: a seam
 /// is missing there.
 std::vector<std::string> panels_apart(const Pattern& pattern);
@@ -23,8 +27,13 @@ std::vector<std::string> panels_apart(const Pattern& pattern);
 /// where a candidate's mirror image, or another guess that the same answer decides, is open
 /// too it is its "and". Moving the right one into "seams" answers a question, deleting the
 /// question states that the edge is free.
-/// @param guesses  of infer_seams()
+/// Which version of a part is made is a question of its own, without an edge: "versions" has the
+/// names of the pieces of each, and a candidate those that it takes and leaves out. "without" of
+/// the document leaves out what the first candidates do; for another one the file is read again
+/// without what that one leaves out.
+/// @param guesses   of infer_seams()
+/// @param versions  of take_versions(), which has taken all but the first out of the pattern
 io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& guesses,
-                          const std::string& tool);
+                          const std::string& tool, const std::vector<PieceVersions>& versions = {});
 
 } // namespace sloper::pattern

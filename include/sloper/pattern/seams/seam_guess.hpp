@@ -3,6 +3,7 @@
 /// Test: tests/pattern/seams/test_infer.cpp
 #include <sloper/pattern/pattern.hpp>
 
+#include <string>
 #include <vector>
 
 namespace sloper::pattern {
@@ -19,5 +20,8 @@ struct SeamGuess {
   /// Indices of other guesses that the same answer decides: with a sleeve's seam its cap.
   std::vector<int> with;
 };
+
+/// Versions of one part of the garment, each the names of its pieces; the first is proposed.
+using PieceVersions = std::vector<std::vector<std::string>>;
 
 } // namespace sloper::pattern

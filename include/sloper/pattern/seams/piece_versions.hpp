@@ -1,0 +1,18 @@
+#pragma once
+/// Pieces of a style file that are made in place of each other: legs of two lengths, a ribbed
+/// collar or one of shell fabric.
+/// Test: tests/pattern/seams/test_infer.cpp
+#include <sloper/pattern/seams/seam_guess.hpp>
+
+namespace sloper::pattern {
+
+/// Finds versions in a pattern without seams, takes all but the first of each part out of it, and
+/// returns them.
+///
+/// Legs: two pairs or more that each close on themselves and at both crotch curves. Pieces that are
+/// called collars, or sleeves: where more cloth is sewn more surely (infer_seams()) with one of
+/// them alone than with all; that one is proposed which is sewn best. Costs an inference for each
+/// version.
+std::vector<PieceVersions> take_versions(Pattern& pattern);
+
+} // namespace sloper::pattern
