@@ -75,6 +75,7 @@ TEST(Levels, an_arm_is_left_out_from_where_its_section_meets_the_trunks) {
   EXPECT_LT(arm_joins(arm, 1.6), 1.2120);
   arm.pit_hidden = true;
   EXPECT_LT(arm_joins(arm, 1.6), 1.0);
+}
 
 /// Of 112 arms of fresh bodies nine that are level had no merge, or one far out: level sections
 /// meet their underside in pieces, and the piece at the trunk joins first.
