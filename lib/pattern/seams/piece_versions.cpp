@@ -102,9 +102,9 @@ double sewn_together(const Pattern& pattern, const std::vector<Unit>& units) {
 
 /// Of pieces of one kind, the best alone first, where it is sewn better without the others.
 std::vector<Unit> best_alone(const Pattern& pattern, std::vector<Unit> units) {
-  constexpr std::size_t MOST = 8; // versions of one part; more is a library of parts
-  constexpr double BETTER = 0.1;  // m of seams: less is no difference, and the file's order counts
-  if (units.size() < 2 || units.size() > MOST)
+  constexpr std::size_t MOST_VERSIONS = 8; // versions of one part; more is a library of parts
+  constexpr double BETTER = 0.1; // m of seams: less is no difference, and the file's order counts
+  if (units.size() < 2 || units.size() > MOST_VERSIONS)
     return {};
   std::vector<double> worth;
   for (std::size_t k = 0; k < units.size(); ++k) {

@@ -223,7 +223,7 @@ private:
   /// Raglan sleeves close on themselves and are sewn to front and back along the whole of both
   /// sides: one answer tells all of it.
   void join_raglans() {
-    constexpr double LIKELY = 0.5; // probability
+    constexpr double LIKELY_RIM = 0.5; // probability
     for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
       for (const PanelMirror& m : m_mirrors[p]) {
         if (m.panel <= p || !says_sleeve(words(p)))
@@ -234,7 +234,8 @@ private:
         for (int k = 0; k < std::ssize(m_guesses); ++k) {
           const SeamGuess& g = m_guesses[k];
           const int a = g.seam.a[0].panel, b = g.seam.b[0].panel;
-          if (g.certain || g.score < LIKELY || !g.with.empty() || !touches(g.seam, {p, m.panel}))
+          if (g.certain || g.score < LIKELY_RIM || !g.with.empty() ||
+              !touches(g.seam, {p, m.panel}))
             continue;
           open.push_back(k);
           closes = closes || a == b;
