@@ -15,7 +15,7 @@ namespace sloper::garment {
 namespace {
 
 constexpr double LEAST_BENDING = 1e-8, MOST_BENDING = 1e-2; // N m: between silk gauze and board
-constexpr int MOST_FOLDS = 50; // of a rim: silk on a large disc has 12
+constexpr int MOST_FOLDS = 50;                              // of a rim: silk on a large disc has 12
 /// Rigidities at which the model is draped at most, and drapes at each.
 constexpr int ROUNDS = 7, DRAPES = 4;
 constexpr double LARGEST_STEP = 0.5; // decades from one round to the next
