@@ -17,26 +17,41 @@ Eigen::Index place_of(std::vector<int>& list, int value) {
   return static_cast<Eigen::Index>(list.size()) - 1;
 }
 
+/// By how much a mode of a plate may be stiffer than its hinges alone. At 1.5 the hinges of an
+/// equilateral mesh have the rigidity of a cylinder, and an error of any mode at least halves in a
+/// step; from 2 on it would grow.
+constexpr double MOST_ABOVE_HINGES = 1.5;
+
+/// Diagonal of the plate's stiffness, scaled so that no mode exceeds it by more. m
+Eigen::VectorXd hinges_alone(const Eigen::MatrixXd& stiffness) {
+  const Eigen::VectorXd diagonal = stiffness.diagonal().cwiseMax(0);
+  const Eigen::VectorXd root =
+      diagonal.unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0; });
+  const Eigen::MatrixXd relative = root.asDiagonal() * stiffness * root.asDiagonal();
+  const double largest =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(relative, Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .tail(1)[0];
+  return largest / MOST_ABOVE_HINGES * diagonal;
+}
+
 } // namespace
 
 OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
                                                    std::optional<std::vector<double>> rest_angle)
     : m_mesh(mesh), m_plates(make_bending_plates(mesh)), m_rest_angle(std::move(rest_angle)) {
-  std::vector<Pair> pairs; // of plates whose stiffness is constant
+  std::vector<Pair> pairs, hinge_pairs; // of plates whose stiffness is constant
   for (const BendingPlate& plate : m_plates) {
     m_stencils.push_back(stencil_of(plate));
     const Stencil& s = m_stencils.back();
     const bool constant = !m_rest_angle && plate.soft_share <= 0;
     if (!constant)
       continue;
-    const auto n = static_cast<Eigen::Index>(s.particle.size());
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = a; b < n; ++b) {
-        const auto [low, high] = std::minmax(s.particle[a], s.particle[b]);
-        pairs.push_back({low, high, s.stiffness(a, b)});
-      }
+    add_pairs(s, s.stiffness, pairs);
+    add_pairs(s, s.of_hinges, hinge_pairs);
   }
-  keep_sums(std::move(pairs));
+  m_pairs = sums(std::move(pairs));
+  m_hinge_pairs = sums(std::move(hinge_pairs));
   if (m_rest_angle)
     sign_lengths();
 }
@@ -57,21 +72,39 @@ OrthotropicBendingEffect::stencil_of(const BendingPlate& plate) const {
       s.coefficient(e, place_of(s.particle, hinge.particle[k])) += hinge.coefficient[k];
   }
   s.stiffness = s.coefficient.transpose() * plate.stiffness * s.coefficient;
+  s.of_hinges =
+      s.coefficient.transpose() * hinges_alone(plate.stiffness).asDiagonal() * s.coefficient;
   return s;
 }
 
+/// Pairs that no hinge has together are 0 in a matrix of hinges, and are left out.
+void OrthotropicBendingEffect::add_pairs(const Stencil& stencil, const Eigen::MatrixXd& of,
+                                         std::vector<Pair>& to) {
+  const auto n = static_cast<Eigen::Index>(stencil.particle.size());
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (Eigen::Index b = a; b < n; ++b) {
+      if (of(a, b) == 0)
+        continue;
+      const auto [low, high] = std::minmax(stencil.particle[a], stencil.particle[b]);
+      to.push_back({low, high, of(a, b)});
+    }
+}
+
 /// Plates overlap: one entry for each pair of particles.
-void OrthotropicBendingEffect::keep_sums(std::vector<Pair> pairs) {
+std::vector<OrthotropicBendingEffect::Pair>
+OrthotropicBendingEffect::sums(std::vector<Pair> pairs) {
+  std::vector<Pair> out;
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     return std::tie(a.i, a.j) < std::tie(b.i, b.j);
   });
   for (const Pair& p : pairs) {
-    const bool again = !m_pairs.empty() && m_pairs.back().i == p.i && m_pairs.back().j == p.j;
+    const bool again = !out.empty() && out.back().i == p.i && out.back().j == p.j;
     if (again)
-      m_pairs.back().stiffness += p.stiffness;
+      out.back().stiffness += p.stiffness;
     else
-      m_pairs.push_back(p);
+      out.push_back(p);
   }
+  return out;
 }
 
 /// Rest length of each hinge's edge, negative where the hinge runs against its first triangle.
@@ -95,16 +128,18 @@ void OrthotropicBendingEffect::declare(Couplings& couplings) const {
       for (int a = 0; a < 4; ++a)
         for (int b = a + 1; b < 4; ++b)
           pairs.push_back({hinge.particle[a], hinge.particle[b]});
-  for (const Pair& p : m_pairs)
+  for (const Pair& p : m_hinge_pairs)
     if (p.i != p.j)
       pairs.push_back({p.i, p.j});
   for (std::size_t k = 0; k < m_plates.size(); ++k) {
     if (!m_rest_angle && is_constant(k))
       continue;
-    const std::vector<int>& particle = m_stencils[k].particle;
-    for (std::size_t a = 0; a < particle.size(); ++a)
-      for (std::size_t b = a + 1; b < particle.size(); ++b)
-        pairs.push_back({particle[a], particle[b]});
+    const Stencil& s = m_stencils[k];
+    const auto n = static_cast<Eigen::Index>(s.particle.size());
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = a + 1; b < n; ++b)
+        if (couples(s, a, b))
+          pairs.push_back({s.particle[a], s.particle[b]});
   }
 }
 
@@ -112,30 +147,39 @@ void OrthotropicBendingEffect::bind(const BlockMatrix& matrix) {
   if (m_rest_angle)
     m_hinge_slots = find_hinge_slots(m_mesh, matrix);
   m_pair_slots.clear();
-  for (const Pair& p : m_pairs)
+  for (const Pair& p : m_hinge_pairs)
     m_pair_slots.push_back(p.i == p.j ? -1 : matrix.slot(p.i, p.j));
   for (std::size_t k = 0; k < m_plates.size(); ++k) {
     Stencil& s = m_stencils[k];
     s.slot.clear();
     if (!m_rest_angle && is_constant(k))
       continue;
-    for (std::size_t a = 0; a < s.particle.size(); ++a)
-      for (std::size_t b = a + 1; b < s.particle.size(); ++b)
-        s.slot.push_back(matrix.slot(s.particle[a], s.particle[b]));
+    const auto n = static_cast<Eigen::Index>(s.particle.size());
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = a + 1; b < n; ++b)
+        s.slot.push_back(couples(s, a, b) ? matrix.slot(s.particle[a], s.particle[b]) : -1);
   }
 }
 
 double OrthotropicBendingEffect::energy(const std::vector<Vec3>& x) const {
   if (m_rest_angle)
     return m_mesh.bend_scale * energy_of_angles(x);
+  // A hinge is in up to three plates, and line searches ask often: each q is made once.
+  std::vector<Vec3> q(m_mesh.hinges.size(), Vec3::Zero());
+  for (std::size_t h = 0; h < q.size(); ++h)
+    for (int k = 0; k < 4; ++k)
+      q[h] += m_mesh.hinges[h].coefficient[k] * x[m_mesh.hinges[h].particle[k]];
   double sum = 0;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> q;
-  for (std::size_t k = 0; k < m_plates.size(); ++k) {
-    const Stencil& s = m_stencils[k];
-    q.setZero(s.coefficient.rows(), 3);
-    for (Eigen::Index a = 0; a < s.coefficient.cols(); ++a)
-      q += s.coefficient.col(a) * x[s.particle[a]].transpose();
-    sum += m_plates[k].energy((m_plates[k].stiffness * q).cwiseProduct(q).sum());
+  for (const BendingPlate& plate : m_plates) {
+    double s = 0;
+    for (std::size_t a = 0; a < plate.hinge.size(); ++a) {
+      Vec3 moment = Vec3::Zero();
+      for (std::size_t b = 0; b < plate.hinge.size(); ++b)
+        moment += plate.stiffness(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) *
+                  q[plate.hinge[b]];
+      s += q[plate.hinge[a]].dot(moment);
+    }
+    sum += plate.energy(s);
   }
   return m_mesh.bend_scale * sum;
 }
@@ -146,22 +190,28 @@ void OrthotropicBendingEffect::add(StepContext& c) {
     add_angles(c, damping);
     return;
   }
-  const double scale = m_mesh.bend_scale;
-  for (std::size_t e = 0; e < m_pairs.size(); ++e) {
-    const Pair& p = m_pairs[e];
-    const double k = scale * p.stiffness;
-    if (p.i == p.j) {
-      c.force[p.i] -= k * c.x[p.i];
-      c.stiffness.add_isotropic_diagonal(p.i, k * (1 + damping));
-      continue;
-    }
-    c.force[p.i] -= k * c.x[p.j];
-    c.force[p.j] -= k * c.x[p.i];
-    c.stiffness.add_isotropic(m_pair_slots[e], k * (1 + damping));
-  }
+  add_sums(c, damping);
   for (std::size_t k = 0; k < m_plates.size(); ++k)
     if (!is_constant(k))
       add_plate(c, k, damping);
+}
+
+void OrthotropicBendingEffect::add_sums(StepContext& c, double damping) const {
+  const double scale = m_mesh.bend_scale;
+  for (const Pair& p : m_pairs) {
+    const double k = scale * p.stiffness;
+    c.force[p.i] -= k * c.x[p.j];
+    if (p.i != p.j)
+      c.force[p.j] -= k * c.x[p.i];
+  }
+  for (std::size_t e = 0; e < m_hinge_pairs.size(); ++e) {
+    const Pair& p = m_hinge_pairs[e];
+    const double k = scale * p.stiffness * (1 + damping);
+    if (p.i == p.j)
+      c.stiffness.add_isotropic_diagonal(p.i, k);
+    else
+      c.stiffness.add_isotropic(m_pair_slots[e], k);
+  }
 }
 
 void OrthotropicBendingEffect::add_plate(StepContext& c, std::size_t plate, double damping) {
@@ -176,9 +226,10 @@ void OrthotropicBendingEffect::add_plate(StepContext& c, std::size_t plate, doub
   for (Eigen::Index a = 0; a < n; ++a) {
     c.force[s.particle[a]] -= secant * force.row(a).transpose();
     const double k = secant * (1 + damping);
-    c.stiffness.add_isotropic_diagonal(s.particle[a], k * s.stiffness(a, a));
-    for (Eigen::Index b = a + 1; b < n; ++b)
-      c.stiffness.add_isotropic(s.slot[at++], k * s.stiffness(a, b));
+    c.stiffness.add_isotropic_diagonal(s.particle[a], k * s.of_hinges(a, a));
+    for (Eigen::Index b = a + 1; b < n; ++b, ++at)
+      if (s.slot[at] >= 0)
+        c.stiffness.add_isotropic(s.slot[at], k * s.of_hinges(a, b));
   }
 }
 

@@ -2,7 +2,6 @@
 #include <sloper/base/error.hpp>
 #include <sloper/base/random.hpp>
 #include <sloper/base/units.hpp>
-#include <sloper/cloth/forces/bending.hpp>
 #include <sloper/cloth/forces/edge_spring.hpp>
 #include <sloper/cloth/forces/gravity.hpp>
 #include <sloper/cloth/forces/membrane.hpp>
@@ -154,10 +153,7 @@ DrapemeterResult drape_specimen(const cloth::Fabric& fabric, const DrapemeterSet
   }
   // By angles: at a fold a cell of 8 mm turns by up to a radian, where the curvature vector is a
   // tenth short of the energy. That made coarse meshes softer.
-  if (cloth::bends_by_direction(fabric))
-    solver.emplace<cloth::OrthotropicBendingEffect>(mesh, std::vector<double>(mesh.hinges.size()));
-  else
-    solver.emplace<cloth::BendingEffect>(mesh);
+  solver.emplace<cloth::OrthotropicBendingEffect>(mesh, std::vector<double>(mesh.hinges.size()));
   solver.emplace<cloth::GravityEffect>(mesh, Vec3(0, -units::GRAVITY, 0));
   solver.emplace<cloth::PinsEffect>(pins);
 

@@ -15,6 +15,7 @@ namespace sloper::garment {
 namespace {
 
 constexpr double LEAST_BENDING = 1e-8, MOST_BENDING = 1e-2; // N m: between silk gauze and board
+constexpr int MOST_FOLDS = 50;                              // of a rim: silk on a large disc has 12
 /// Rigidities at which the model is draped at most, and drapes at each.
 constexpr int ROUNDS = 7, DRAPES = 4;
 constexpr double LARGEST_STEP = 0.5; // decades from one round to the next
@@ -24,9 +25,12 @@ constexpr double CLOSE = 0.03;       // decades: a round that moves less is the 
 /// in the middle it is 0.41 (tests/validation/test_cusick.cpp).
 constexpr double LEAST_SLOPE = 0.1;
 constexpr double USELESS_DECADES = 0.3; // a factor of two
-/// Error of the model's mesh, decades: 5 % of the rigidity, by which it was off on three fabrics
-/// whose silhouettes came from a finer one (test_drapemeter.cpp).
+/// Least error of the model's mesh, decades: 5 % of the rigidity, by which it was off on three
+/// fabrics whose silhouettes came from a finer one (test_drapemeter.cpp).
 constexpr double MESH_DECADES = 0.02;
+/// Edges of the mesh beside which the model's is held: an error of second order is their
+/// difference over the square of this less 1.
+constexpr double COARSER = 4.0 / 3;
 constexpr double CONTRADICTION = 3;    // standard errors
 constexpr double WEIGHT_OF_LENGTH = 3; // B goes with the third power
 constexpr const char* DIRECTION_NAMES[] = {"warp", "weft", "bias"};
@@ -201,18 +205,32 @@ private:
     m_fit.simulations += DRAPES;
   }
 
-  /// How far the result moves when shear is off by its error, decades.
-  double shear_decades(double decade, const Line& line) {
-    if (!(m_tests.shear_error > 0) || !(m_tests.base.shear_n_m > 0))
+  /// How far the result moves when shear and stretch are off by their errors, and by its mesh, all
+  /// in decades. Cloth that hardly stretches locks where it folds finely: on a mesh that is too
+  /// coarse for it each of the latter two may come to a third of the rigidity.
+  double model_decades(double decade, const Line& line) {
+    const auto plain = drape_at(m_fit.material, m_tests.setup, decade, 1);
+    m_fit.simulations += DRAPES;
+    if (plain.size() < DRAPES)
       return 0;
-    Material other = m_fit.material;
-    other.shear_n_m *= 1 + m_tests.shear_error;
-    const auto stiffer = drape_at(other, m_tests.setup, decade, 1),
-               plain = drape_at(m_fit.material, m_tests.setup, decade, 1);
-    m_fit.simulations += 2 * DRAPES;
-    if (stiffer.size() < DRAPES || plain.size() < DRAPES)
-      return 0;
-    return std::abs(mean_coefficient(stiffer) - mean_coefficient(plain)) / line.slope;
+    const auto moved = [&](const Material& material, const DrapemeterSetup& setup) {
+      const auto other = drape_at(material, setup, decade, 1);
+      m_fit.simulations += DRAPES;
+      if (other.size() < DRAPES)
+        return 0.0;
+      return (mean_coefficient(other) - mean_coefficient(plain)) / line.slope;
+    };
+    Material shear = m_fit.material, stretch = m_fit.material;
+    shear.shear_n_m *= 1 + m_tests.shear_error;
+    stretch.stretch_warp_n_m *= 1 + m_tests.stretch_error;
+    stretch.stretch_weft_n_m *= 1 + m_tests.stretch_error;
+    DrapemeterSetup coarser = m_tests.setup;
+    coarser.edge_m *= COARSER;
+    const double by_shear =
+                     shear.shear_n_m > m_fit.material.shear_n_m ? moved(shear, m_tests.setup) : 0,
+                 by_stretch = m_tests.stretch_error > 0 ? moved(stretch, m_tests.setup) : 0,
+                 by_mesh = moved(m_fit.material, coarser) / (COARSER * COARSER - 1);
+    return std::sqrt(by_shear * by_shear + by_stretch * by_stretch + by_mesh * by_mesh);
   }
 
   void conclude(double target, double n, double decade, const Line& line) {
@@ -231,8 +249,8 @@ private:
     m_reporter.progress("fit", static_cast<double>(ROUNDS) / (ROUNDS + 1));
     const double measured = one / std::sqrt(n) / line.slope,
                  model = line.scatter / std::sqrt(static_cast<double>(line.n)) / line.slope,
-                 shear = shear_decades(decade, line);
-    const double sd = std::sqrt(measured * measured + model * model + shear * shear +
+                 others = model_decades(decade, line);
+    const double sd = std::sqrt(measured * measured + model * model + others * others +
                                 MESH_DECADES * MESH_DECADES);
     m_fit.coefficient = line.at + line.slope * (decade - line.middle);
     m_fit.coefficient_sd = line.scatter;
@@ -308,6 +326,10 @@ void check(const FabricTests& tests) {
     if (!(c > 0) || c > 1)
       throw input_error("drapemeter.out-of-range"_id, "", "drape coefficient", "is out of range",
                         "give it in %, up to 100");
+  for (int folds : tests.folds)
+    if (folds < 0 || folds > MOST_FOLDS)
+      throw input_error("drapemeter.out-of-range"_id, "", "folds", "are those of no drape",
+                        "count them, from 0 to " + std::to_string(MOST_FOLDS));
   const bool any =
       !tests.coefficient.empty() || !tests.overhang_m[0].empty() || !tests.overhang_m[1].empty();
   if (!any)

@@ -1,10 +1,12 @@
 #include <garment/levels/soft_sewing.hpp>
 #include <sloper/base/units.hpp>
+#include <sloper/cloth/bending_plates.hpp>
 #include <sloper/cloth/contact/soft_body_contact.hpp>
 #include <sloper/cloth/forces/bending.hpp>
 #include <sloper/cloth/forces/edge_spring.hpp>
 #include <sloper/cloth/forces/gravity.hpp>
 #include <sloper/cloth/forces/half_space.hpp>
+#include <sloper/cloth/forces/orthotropic_bending.hpp>
 #include <sloper/cloth/forces/sewing_spring.hpp>
 #include <sloper/cloth/forces/shear.hpp>
 #include <sloper/cloth/solver/implicit_step.hpp>
@@ -108,7 +110,7 @@ public:
         m_solver(m_mesh, garment.position, m_velocity) {
     m_solver.emplace<cloth::EdgeSpringEffect>(m_mesh);
     m_solver.emplace<cloth::ShearEffect>(m_mesh);
-    m_solver.emplace<cloth::BendingEffect>(m_mesh);
+    add_bending();
     const cloth::SoftBodyContactOptions contact{.reach_m = reach,
                                                 .stiffness_n_m3 = stiffness,
                                                 .drag = drag,
@@ -125,6 +127,7 @@ public:
   const cloth::ClothMesh& mesh() const { return m_mesh; }
   cloth::SoftBodyContactEffect* contact() { return m_contact; } ///< null without a body
   void set_bending(double times) {
+    m_mesh.bend_scale = times;
     for (std::size_t e = 0; e < m_hinges.size(); ++e)
       m_mesh.hinges[e].stiffness = times * m_hinges[e].stiffness;
   }
@@ -139,6 +142,14 @@ public:
   const cloth::StepResult& last() const { return m_last; }
 
 private:
+  /// By direction where a fabric does: the finer mesh must not find other folds to rest in.
+  void add_bending() {
+    const auto& fabrics = m_mesh.fabrics;
+    if (std::any_of(fabrics.begin(), fabrics.end(), cloth::bends_by_direction))
+      m_solver.emplace<cloth::OrthotropicBendingEffect>(m_mesh);
+    else
+      m_solver.emplace<cloth::BendingEffect>(m_mesh);
+  }
   void keep_legs_apart() {
     const std::vector<char> side = leg_sides(m_garment);
     std::vector<int> left, right;

@@ -153,6 +153,9 @@ SpreadFigure spread_figure(const std::vector<double>& values) {
 Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
   Spread out;
   out.count = static_cast<int>(set.garments.size());
+  if (!set.garments.empty())
+    for (const pattern::PanelInfo& panel : set.garments[0].panels.panels)
+      out.panels.push_back(panel.name);
   out.to_medoid_m.assign(set.garments.size(), -1);
   std::vector<const Garment*> drapes;
   std::vector<std::size_t> number;
@@ -286,6 +289,7 @@ io::Json spread_json(const Spread& spread, const RedrapeRequest& request, const 
   document["jitter"] = {{"turn_rad", request.jitter.turn_rad},
                         {"offset_m", request.jitter.offset_m},
                         {"order_m", request.jitter.order_m}};
+  document["panels"] = spread.panels;
   document["medoid"] = spread.medoid;
   document["to_medoid_mm"] = io::Json::array();
   for (double d : spread.to_medoid_m)

@@ -23,6 +23,8 @@ case_what_no_cloth_has_is_refused() {
   run 3 "$program" --weight 121 -o out.json --overhang-bias 40
   run 3 "$program" --weight 121 -o out.json --overhang-warp 2
   run 3 "$program" --weight 121 -o out.json --drape-percent 120
+  run 3 "$program" --weight 121 -o out.json --drape-percent 60 --folds -3
+  says "folds: are those of no drape"
   run 2 "$program" --weight 121 -o out.json --drape-percent 60 --disc 290
   run 2 "$program" --weight 0 -o out.json --overhang-warp 40
   run 3 "$program" --weight 121 -o out.json --preset tweet --overhang-warp 40

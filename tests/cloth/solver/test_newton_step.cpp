@@ -10,6 +10,7 @@
 #include <sloper/cloth/forces/gravity.hpp>
 #include <sloper/cloth/forces/pins.hpp>
 #include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
 
 namespace sloper::cloth {
 namespace {

@@ -13,6 +13,7 @@
 #include <sloper/body/measure_scan.hpp>
 #include <sloper/garment/body_model/collision_body.hpp>
 #include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/materials.hpp>
 #include <sloper/garment/scene/scene.hpp>
 #include <sloper/garment/sewing.hpp>
 #include <sloper/garment/simulate/checkpoint.hpp>
@@ -151,6 +152,26 @@ TEST(SoftSewing, starts_a_micrometre_apart_end_micrometres_apart_where_no_body_h
     EXPECT_LT(sewing.widest_gap_m, 0.002);
   }
   EXPECT_LT(largest_difference(ends[0].position, ends[1].position), 2e-5);
+}
+
+TEST(SoftSewing, coarse_cloth_bends_by_direction) {
+  // A board three times as stiff along warp, and one as stiff along weft, hang otherwise; fabrics
+  // of the same mean did not.
+  std::vector<std::vector<Vec3>> ends;
+  for (const double warp : {1.5e-3, 0.5e-3}) {
+    Garment garment;
+    garment.panels = two_pieces(0.048);
+    Material material = material_preset("cotton-poplin");
+    material.bend_n_m = 1e-3;
+    material.bend_warp_n_m = warp;
+    material.bend_weft_n_m = 2e-3 - warp;
+    garment.materials[""] = material;
+    CollisionBody nothing(nullptr, 0, silent_reporter());
+    sew_softly(garment, nothing, silent_reporter());
+    relax_softly(garment, nothing, {}, 0, silent_reporter());
+    ends.push_back(garment.position);
+  }
+  EXPECT_GT(largest_difference(ends[0], ends[1]), 1e-4);
 }
 
 TEST(SoftSewing, sleeves_close_around_the_arms_before_they_are_sewn_in) {

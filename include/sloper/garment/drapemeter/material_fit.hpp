@@ -23,8 +23,9 @@ struct FabricTests {
   double length_error_m = 0.002;   ///< standard error of one overhang by a ruler
   /// Of one drape, where there are too few repetitions to estimate it.
   double coefficient_error = 0.03;
-  double shear_error = 0.3; ///< relative error of the base's shear; 0 where it was measured
-  DrapemeterSetup setup;    ///< of the drape tests
+  double shear_error = 0.3;   ///< relative error of the base's shear; 0 where it was measured
+  double stretch_error = 0.3; ///< likewise of its stretch
+  DrapemeterSetup setup;      ///< of the drape tests
 };
 
 /// A bending rigidity with its standard deviation.
@@ -50,14 +51,14 @@ struct MaterialFit {
 
 /// Overhangs: B = W g (L / 2)^3 (Peirce 1930; BS 3356). Drapes: the logarithm of B at which the
 /// mean of simulated drapes has the measured mean coefficient, by regression over drapes around it;
-/// its error is that of the measured mean, of the model's and of shear that was not measured, over
-/// the slope of the coefficient. Both together: weighted by their errors; the ratios of the
-/// directions are the overhangs'.
+/// its error is that of the measured mean, of the model's, of its mesh, and of shear and stretch
+/// that were not measured, over the slope of the coefficient. Both together: weighted by their
+/// errors; the ratios of the directions are the overhangs'.
 ///
 /// The data cannot tell where the coefficient hardly changes with the rigidity: cloth that hangs
 /// straight down or stands straight out; where errors come to a factor of two; where overhang and
 /// drape contradict each other by three times their errors.
-/// The same bytes for any number of threads. At most 60 CPU seconds (36 drapes at 9 mm), 100 MB.
+/// The same bytes for any number of threads. At most 60 CPU seconds (44 drapes at 9 mm), 100 MB.
 /// @param tests  with at least one overhang or drape coefficient
 /// @throws Error INPUT for values that nothing can have
 MaterialFit fit_material(const FabricTests& tests, Reporter& reporter);

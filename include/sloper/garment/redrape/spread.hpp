@@ -19,7 +19,8 @@ SpreadFigure spread_figure(const std::vector<double>& values);
 
 /// Statistics over the drapes that came to rest.
 struct Spread {
-  int count = 0, at_rest = 0; ///< drapes; those that came to rest, which alone count below
+  int count = 0, at_rest = 0;      ///< drapes; those that came to rest, which alone count below
+  std::vector<std::string> panels; ///< names of the panels of the garment
   int medoid = 0; ///< number of the drape whose squared distances to the others are least in sum
   std::vector<double> to_medoid_m; ///< by number, root mean square over particles; -1: not at rest
   std::vector<double> particles_m; ///< #P: standard deviation of the place, of all three axes
