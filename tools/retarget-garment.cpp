@@ -282,18 +282,22 @@ int run(cli::Tool& tool, Options o) {
   const garment::DrapeRequest request{.bounds = garment::early_termination_bounds(policy, fit),
                                       .start = {.hold_sleeve_ends = placed.has_folded_sleeves}};
   for (;;) {
-    if (!o.no_drape && !hopeless)
-      report =
-          garment::drape_retargeted(placed, source, body, mode, settings, tool.reporter(), request);
-    garment::bind_garment(garment, body);
-    if (hopeless)
-      break;
     const auto& made_for =
         keep_fit ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
     const auto judged = [&](const garment::Garment& worn) {
       return garment::fit_garment(worn, body, skin, policy, &placed.placed,
                                   garment::misfit_text(report.misfit), made_for, &source.position);
     };
+    if (!o.no_drape && !hopeless)
+      report = garment::drape_retargeted(placed, {source, body, mode}, settings, tool.reporter(),
+                                         request, [&](const garment::Garment& draped) {
+                                           garment::Garment worn = draped;
+                                           garment::bind_garment(worn, body);
+                                           return judged(worn).fits;
+                                         });
+    garment::bind_garment(garment, body);
+    if (hopeless)
+      break;
     fit = judged(garment);
     if (!keep_fit || o.no_drape || placed.report.gradings == MOST_GRADINGS)
       break;

@@ -30,11 +30,12 @@ bool is_worth_another_start(const DrapeReport& report, RetargetMode mode) {
 }
 
 /// The pattern that the garment's mesh is one of.
-std::string find_pattern(const Garment& garment, const Garment& source, RetargetMode mode,
+std::string find_pattern(const Garment& garment, const RetargetedFrom& from,
                          pattern::Pattern& found) {
+  const Garment& source = from.source;
   if (!source.panels.source)
     return "it does not know its pattern";
-  if (mode == RetargetMode::KEEP_FIT) {
+  if (from.mode == RetargetMode::KEEP_FIT) {
     found = pattern_of(garment, source);
     return found.findings.empty() ? "" : found.findings.front().text;
   }
@@ -47,61 +48,73 @@ std::string find_pattern(const Garment& garment, const Garment& source, Retarget
 /// One drape of two starts.
 class TwoStarts {
 public:
-  TwoStarts(Retargeted& retargeted, const Garment& source, const body::Body& body,
-            RetargetMode mode, const DrapeSettings& settings)
-      : m_retargeted(retargeted), m_source(source), m_body(body), m_mode(mode),
-        m_settings(settings) {}
+  TwoStarts(Retargeted& retargeted, const RetargetedFrom& from, const DrapeSettings& settings,
+            Reporter& reporter, const DrapeRequest& request,
+            const std::function<bool(const Garment&)>& is_worn_well)
+      : m_retargeted(retargeted), m_from(from), m_settings(settings), m_reporter(reporter),
+        m_request(request), m_is_worn_well(is_worn_well) {}
 
-  DrapeReport run(Reporter& reporter, const DrapeRequest& request) {
+  DrapeReport run() {
     const Garment placed = m_retargeted.garment;
-    const bool anew_first = m_retargeted.is_tangled;
+    const bool tangled = m_retargeted.is_tangled;
     m_retargeted.is_tangled = false;
-    if (anew_first)
-      if (const std::string why = make_panels(placed); why.empty()) {
-        DrapeReport report =
-            sew_anew(reporter, request, "the placed garment crosses body or cloth");
-        if (!is_worth_another_start(report, m_mode) || is_out_of_time(report))
-          return report;
-        Garment sewn = std::move(m_retargeted.garment);
-        m_retargeted.garment = placed;
-        return better(std::move(report), std::move(sewn), drape_placed(reporter, request));
-      }
-    DrapeReport report = drape_placed(reporter, request);
-    if (anew_first || !is_worth_another_start(report, m_mode) || is_out_of_time(report))
+    const bool panels_first =
+        tangled && !m_retargeted.has_folded_sleeves && make_panels(placed).empty();
+    DrapeReport report =
+        panels_first ? sew_anew("the placed garment crosses body or cloth") : drape_placed();
+    m_used_s = report.wall_s;
+    if (is_done(report, tangled) || is_out_of_time())
       return report;
-    Garment hung = std::move(m_retargeted.garment);
+    Garment of_first = std::move(m_retargeted.garment);
+    if (panels_first) {
+      m_retargeted.garment = placed;
+      return better(std::move(report), std::move(of_first), drape_placed());
+    }
     if (const std::string why = make_panels(placed); !why.empty()) {
-      m_retargeted.garment = std::move(hung);
+      m_retargeted.garment = std::move(of_first);
       report.repairs.push_back("not sewn anew: " + why);
       return report;
     }
-    DrapeReport anew = sew_anew(reporter, request, stop_text(report));
-    return better(std::move(report), std::move(hung), std::move(anew));
+    DrapeReport anew =
+        sew_anew(report.converged ? "the placed garment does not fit" : stop_text(report));
+    return better(std::move(report), std::move(of_first), std::move(anew));
   }
 
 private:
-  DrapeReport drape_placed(Reporter& reporter, const DrapeRequest& request) {
-    return drape(m_retargeted.garment, &m_body, settings_left(), reporter, request);
+  DrapeReport drape_placed() {
+    return drape(m_retargeted.garment, &m_from.body, settings_left(), m_reporter, m_request);
   }
 
   std::string make_panels(const Garment& placed) {
-    return panels_anew(placed, m_source, m_body, m_mode, m_settings, m_retargeted.garment);
+    return panels_anew(placed, m_from, m_settings, m_retargeted.garment);
   }
 
-  DrapeReport sew_anew(Reporter& reporter, const DrapeRequest& request, const std::string& why) {
+  DrapeReport sew_anew(const std::string& why) {
     const std::string text = "sewn anew around the body from its panels: " + why;
-    reporter.info(text);
-    DrapeReport report = drape(m_retargeted.garment, &m_body, settings_left(), reporter,
-                               {.bounds = request.bounds, .checkpoints = request.checkpoints});
+    m_reporter.info(text);
+    DrapeReport report = drape(m_retargeted.garment, &m_from.body, settings_left(), m_reporter,
+                               {.bounds = m_request.bounds, .checkpoints = m_request.checkpoints});
     report.repairs.insert(report.repairs.begin(), text);
     return report;
   }
 
-  /// The second of two drapes where it came to rest clean, or the first did not either.
+  bool is_worn_well(const DrapeReport& report) const {
+    return report.converged && (!m_is_worn_well || m_is_worn_well(m_retargeted.garment));
+  }
+
+  /// Whether the other start can do no better.
+  bool is_done(const DrapeReport& report, bool tangled) const {
+    const bool by_its_start = tangled && m_from.mode == RetargetMode::KEEP_FABRIC;
+    if (by_its_start && (report.converged || report.misfit != Misfit::NONE))
+      return is_worn_well(report);
+    return !is_worth_another_start(report, m_from.mode);
+  }
+
+  /// The second of two drapes where it is worn well, or came further than the first.
   DrapeReport better(DrapeReport first, Garment of_first, DrapeReport second) {
     const bool same_particles =
         m_retargeted.garment.particle_of == weld_classes(m_retargeted.garment.panels);
-    if ((second.converged || !first.converged) && same_particles) {
+    if (same_particles && (is_worn_well(second) || (second.converged && !first.converged))) {
       add_earlier(first, second);
       return second;
     }
@@ -110,8 +123,7 @@ private:
     return first;
   }
 
-  bool is_out_of_time(const DrapeReport& report) {
-    m_used_s += report.wall_s;
+  bool is_out_of_time() const {
     return m_settings.max_seconds > 0 && m_used_s >= m_settings.max_seconds;
   }
 
@@ -123,28 +135,30 @@ private:
   }
 
   Retargeted& m_retargeted;
-  const Garment& m_source;
-  const body::Body& m_body;
-  RetargetMode m_mode;
+  const RetargetedFrom& m_from;
   const DrapeSettings& m_settings;
-  double m_used_s = 0;
+  Reporter& m_reporter;
+  const DrapeRequest& m_request;
+  const std::function<bool(const Garment&)>& m_is_worn_well;
+  double m_used_s = 0; // of the first drape
 };
 
 } // namespace
 
-std::string panels_anew(const Garment& garment, const Garment& source, const body::Body& body,
-                        RetargetMode mode, const DrapeSettings& settings, Garment& panels) {
+std::string panels_anew(const Garment& garment, const RetargetedFrom& from,
+                        const DrapeSettings& settings, Garment& panels) {
   if (settings.levels < 2)
     return "it is to be draped on the given mesh alone";
   pattern::Pattern pattern;
-  if (const std::string why = find_pattern(garment, source, mode, pattern); !why.empty())
+  if (const std::string why = find_pattern(garment, from, pattern); !why.empty())
     return why;
   Garment unsewn = garment;
   if (weld_classes(unsewn.panels) != garment.particle_of)
     return "it is not sewn as its panels are";
   unsewn.panels.source = std::make_shared<pattern::Pattern>(pattern);
   try {
-    const pattern::PlacementReport placement = pattern::place_panels(pattern, body, unsewn.panels);
+    const pattern::PlacementReport placement =
+        pattern::place_panels(pattern, from.body, unsewn.panels);
     if (!placement.impossible.empty())
       return placement.impossible.front();
     if (placement.is_guess)
@@ -156,16 +170,17 @@ std::string panels_anew(const Garment& garment, const Garment& source, const bod
   unsewn.position.clear();
   unsewn.bind = {};
   unsewn.converged = false;
-  if (std::string why = refusal_of_levels(unsewn, &body, settings); !why.empty())
+  if (std::string why = refusal_of_levels(unsewn, &from.body, settings); !why.empty())
     return why;
   panels = std::move(unsewn);
   return "";
 }
 
-DrapeReport drape_retargeted(Retargeted& retargeted, const Garment& source, const body::Body& body,
-                             RetargetMode mode, const DrapeSettings& settings, Reporter& reporter,
-                             const DrapeRequest& request) {
-  return TwoStarts(retargeted, source, body, mode, settings).run(reporter, request);
+DrapeReport drape_retargeted(Retargeted& retargeted, const RetargetedFrom& from,
+                             const DrapeSettings& settings, Reporter& reporter,
+                             const DrapeRequest& request,
+                             const std::function<bool(const Garment&)>& is_worn_well) {
+  return TwoStarts(retargeted, from, settings, reporter, request, is_worn_well).run();
 }
 
 } // namespace sloper::garment

@@ -77,7 +77,7 @@ protected:
   }
   static DrapeReport drape_it(Retargeted& retargeted, RetargetMode mode,
                               const DrapeSettings& settings = preset_settings("standard")) {
-    return drape_retargeted(retargeted, *s_skirt, s_to->body, mode, settings, silent_reporter(),
+    return drape_retargeted(retargeted, {*s_skirt, s_to->body, mode}, settings, silent_reporter(),
                             {});
   }
   static bool is_sewn_anew(const DrapeReport& report) {
@@ -126,7 +126,7 @@ TEST_F(ASkirtOnAnotherFigure, without_its_pattern_or_a_second_mesh_is_not_sewn_a
   DrapeSettings settings = preset_settings("standard");
   Garment panels;
   const auto why = [&](const Garment& source) {
-    return panels_anew(garment, source, s_to->body, RetargetMode::KEEP_FABRIC, settings, panels);
+    return panels_anew(garment, {source, s_to->body, RetargetMode::KEEP_FABRIC}, settings, panels);
   };
   EXPECT_EQ(why(*s_skirt), "");
   EXPECT_TRUE(panels.particle_of.empty());
