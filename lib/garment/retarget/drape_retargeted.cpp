@@ -68,7 +68,7 @@ public:
     Garment of_first = std::move(m_retargeted.garment);
     if (panels_first) {
       m_retargeted.garment = placed;
-      return better(std::move(report), std::move(of_first), drape_placed());
+      return better(std::move(report), std::move(of_first), drape_placed(), true);
     }
     if (const std::string why = make_panels(placed); !why.empty()) {
       m_retargeted.garment = std::move(of_first);
@@ -77,7 +77,7 @@ public:
     }
     DrapeReport anew =
         sew_anew(report.converged ? "the placed garment does not fit" : stop_text(report));
-    return better(std::move(report), std::move(of_first), std::move(anew));
+    return better(std::move(report), std::move(of_first), std::move(anew), false);
   }
 
 private:
@@ -110,16 +110,18 @@ private:
     return !is_worth_another_start(report, m_from.mode);
   }
 
-  /// The second of two drapes where it is worn well, or came further than the first.
-  DrapeReport better(DrapeReport first, Garment of_first, DrapeReport second) {
+  /// The better of two drapes, the last of which the garment is of now: the one that is worn well,
+  /// else the one at rest, else the one from where the garment was placed.
+  DrapeReport better(DrapeReport first, Garment of_first, DrapeReport last, bool last_is_placed) {
     const bool same_particles =
         m_retargeted.garment.particle_of == weld_classes(m_retargeted.garment.panels);
-    if (same_particles && (is_worn_well(second) || (second.converged && !first.converged))) {
-      add_earlier(first, second);
-      return second;
+    const bool prefer_last = first.converged == last.converged ? last_is_placed : last.converged;
+    if (same_particles && (is_worn_well(last) || prefer_last)) {
+      add_earlier(first, last);
+      return last;
     }
     m_retargeted.garment = std::move(of_first);
-    add_earlier(second, first);
+    add_earlier(last, first);
     return first;
   }
 

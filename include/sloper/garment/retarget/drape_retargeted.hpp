@@ -18,7 +18,7 @@ namespace sloper::garment {
 struct RetargetedFrom {
   const Garment& source;  ///< at rest on another body
   const body::Body& body; ///< that it was placed on
-  RetargetMode mode;
+  RetargetMode mode;      ///< of retarget()
 };
 
 /// Drapes a retargeted garment.
