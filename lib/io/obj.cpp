@@ -134,7 +134,11 @@ private:
 
   [[noreturn]] void fail(MessageId id, const std::string& fact,
                          const std::string& next_step = {}) const {
-    throw input_error(id, m_name, "line " + std::to_string(m_number), fact, next_step);
+    const bool ends_here = m_at > m_text.size(); // no line feed after it
+    const std::string usual = ends_here ? "the file ends within this line: copy it again"
+                                        : "export the mesh again, or mend that line";
+    throw input_error(id, m_name, "line " + std::to_string(m_number), fact,
+                      next_step.empty() ? usual : next_step);
   }
 
   std::string_view m_text, m_line;

@@ -121,3 +121,19 @@ TEST(Obj, is_never_written_with_a_number_that_is_not_finite) {
   }
   EXPECT_EQ(get(folder / "x.obj"), "old");
 }
+
+TEST(Obj, a_copy_that_ends_within_a_line_is_told_from_a_line_that_is_wrong) {
+  const auto next_step = [](const std::string& text) -> std::string {
+    try {
+      io::parse_obj(text, "x.obj", true);
+      return "no error";
+    } catch (const Error& e) {
+      return e.what();
+    }
+  };
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_NE(next_step(points + "f 1 2").find("ends within this line"), std::string::npos);
+  EXPECT_NE(next_step(points + "v 1 0").find("ends within this line"), std::string::npos);
+  EXPECT_EQ(next_step(points + "f 1 2\n").find("ends within this line"), std::string::npos);
+  EXPECT_NE(next_step(points + "f 1 2\n").find("export the mesh again"), std::string::npos);
+}
