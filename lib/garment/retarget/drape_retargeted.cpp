@@ -60,8 +60,8 @@ public:
     m_retargeted.is_tangled = false;
     const bool panels_first =
         tangled && !m_retargeted.has_folded_sleeves && make_panels(placed).empty();
-    DrapeReport report =
-        panels_first ? sew_anew("the placed garment crosses body or cloth") : drape_placed();
+    DrapeReport report = panels_first ? sew_anew(placed, "the placed garment crosses body or cloth")
+                                      : drape_placed();
     m_used_s = report.wall_s;
     if (is_done(report, tangled) || is_out_of_time())
       return report;
@@ -76,7 +76,7 @@ public:
       return report;
     }
     DrapeReport anew =
-        sew_anew(report.converged ? "the placed garment does not fit" : stop_text(report));
+        sew_anew(placed, report.converged ? "the placed garment does not fit" : stop_text(report));
     return better(std::move(report), std::move(of_first), std::move(anew), false);
   }
 
@@ -89,12 +89,19 @@ private:
     return panels_anew(placed, m_from, m_settings, m_retargeted.garment);
   }
 
-  DrapeReport sew_anew(const std::string& why) {
+  /// Where the seams do not all close, the garment is left as it was placed: its particles would be
+  /// others than those of its source.
+  DrapeReport sew_anew(const Garment& placed, const std::string& why) {
     const std::string text = "sewn anew around the body from its panels: " + why;
     m_reporter.info(text);
     DrapeReport report = drape(m_retargeted.garment, &m_from.body, settings_left(), m_reporter,
                                {.bounds = m_request.bounds, .checkpoints = m_request.checkpoints});
     report.repairs.insert(report.repairs.begin(), text);
+    if (m_retargeted.garment.particle_of != placed.particle_of) {
+      m_retargeted.garment = placed;
+      report.converged = false;
+      report.repairs.push_back("not sewn anew: its seams did not close");
+    }
     return report;
   }
 
@@ -113,10 +120,8 @@ private:
   /// The better of two drapes, the last of which the garment is of now: the one that is worn well,
   /// else the one at rest, else the one from where the garment was placed.
   DrapeReport better(DrapeReport first, Garment of_first, DrapeReport last, bool last_is_placed) {
-    const bool same_particles =
-        m_retargeted.garment.particle_of == weld_classes(m_retargeted.garment.panels);
     const bool prefer_last = first.converged == last.converged ? last_is_placed : last.converged;
-    if (same_particles && (is_worn_well(last) || prefer_last)) {
+    if (is_worn_well(last) || prefer_last) {
       add_earlier(first, last);
       return last;
     }

@@ -217,7 +217,7 @@ TEST(SharedPatterns, FilesOfPatternProgramsAskFewQuestions) {
   const char* shared = std::getenv("SLOPER_SHARED");
   const std::string folder = std::string(shared ? shared : "") + "/data/foreign/dxf-real/";
   if (!shared || !std::filesystem::exists(folder))
-    GTEST_SKIP();
+    GTEST_SKIP() << "SLOPER_SHARED names no folder with data/foreign/dxf-real";
   struct Asked {
     const char* file;
     std::size_t versions, most; ///< parts with versions; questions in all
