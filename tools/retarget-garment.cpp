@@ -10,9 +10,8 @@
 #include <sloper/garment/ingest/mesh_garment.hpp>
 #include <sloper/garment/inputs.hpp>
 #include <sloper/garment/materials.hpp>
-#include <sloper/garment/retarget/drape_retargeted.hpp>
 #include <sloper/garment/retarget/nearest_size.hpp>
-#include <sloper/garment/retarget/retarget.hpp>
+#include <sloper/garment/retarget/retarget_job.hpp>
 #include <sloper/garment/retarget/retarget_pattern.hpp>
 #include <sloper/garment/scene/scene.hpp>
 #include <sloper/io/files.hpp>
@@ -23,8 +22,6 @@
 using namespace sloper;
 
 namespace {
-
-constexpr int MOST_GRADINGS = 4; // with keep-fit, of a garment that comes out too tight
 
 struct Options {
   std::string garment, from, fabric, to, mode = "keep-fabric", accuracy = "standard", policy, fit,
@@ -265,57 +262,12 @@ int run(cli::Tool& tool, Options o) {
   if (o.policy.empty())
     garment::follow_worn(source, body, skin, skin_hash, policy);
 
-  garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
-  garment::Garment& garment = placed.garment;
-  garment.body_sha256 = skin_hash;
-  garment::FitReport fit;
-  if (!o.no_drape)
-    fit = garment::fit_before_drape(garment, source.position, body, policy);
-  garment::DrapeReport report;
-  report.settings = settings;
-  report.stop_reason = garment::StopReason::PLACED_ONLY;
-  const bool hopeless = !fit.fits, keep_fit = mode == garment::RetargetMode::KEEP_FIT;
-  if (hopeless) {
-    report.stop_reason = garment::StopReason::NOT_DRAPED;
-    report.stop_detail = fit.reason;
-  }
-  const garment::DrapeRequest request{.bounds = garment::early_termination_bounds(policy, fit),
-                                      .start = {.hold_sleeve_ends = placed.has_folded_sleeves}};
-  for (;;) {
-    const auto& made_for =
-        keep_fit ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
-    const auto judged = [&](const garment::Garment& worn) {
-      return garment::fit_garment(worn, body, skin, policy, &placed.placed,
-                                  garment::misfit_text(report.misfit), made_for, &source.position);
-    };
-    if (!o.no_drape && !hopeless)
-      report = garment::drape_retargeted(placed, {source, body, mode}, settings, tool.reporter(),
-                                         request, [&](const garment::Garment& draped) {
-                                           garment::Garment worn = draped;
-                                           garment::bind_garment(worn, body);
-                                           return judged(worn).fits;
-                                         });
-    garment::bind_garment(garment, body);
-    if (hopeless)
-      break;
-    fit = judged(garment);
-    if (!keep_fit || o.no_drape || placed.report.gradings == MOST_GRADINGS)
-      break;
-    garment::FitReport in_place = fit;
-    if (report.stop_reason == garment::StopReason::STEP_LIMIT) {
-      // cloth that is too tight seldom comes to rest: it is judged as if it had
-      garment::Garment still = garment;
-      still.converged = true;
-      in_place = judged(still);
-    }
-    const bool too_tight = !in_place.fits && in_place.verdict == garment::FitVerdict::TOO_SMALL;
-    if (!too_tight)
-      break;
-    if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0)
-      break;
-    tool.reporter().info("the garment " + in_place.reason + ": let out there");
-    garment::widen_strained_pieces(placed, source, body);
-  }
+  garment::RetargetOutcome outcome = garment::retarget_and_judge(
+      {source, body, skin, skin_hash, mode, settings, policy, o.no_drape}, tool.reporter());
+  const garment::Garment& garment = outcome.retargeted.garment;
+  const garment::DrapeReport& report = outcome.report;
+  const garment::FitReport& fit = outcome.fit;
+  std::vector<Message>& findings = outcome.retargeted.report.findings;
   if (!io::is_mesh_file(o.output))
     garment::write_garment(o.output, garment, tool.name());
   bool worse = false;
@@ -326,28 +278,18 @@ int run(cli::Tool& tool, Options o) {
   }
   if (!o.pattern.empty())
     write_pattern(tool, o, garment, source);
-  if (!o.no_drape && !hopeless)
-    if (const auto place = garment::stretched_place(garment::stretch_of(garment)))
-      placed.report.findings.push_back(
-          {"drape.stretched-place"_id,
-           io::file_name(o.garment) + " on " + io::file_name(o.to) + ": " + *place});
-  for (const Message& finding : placed.report.findings)
+  if (!outcome.stretched_at.empty())
+    findings.push_back(
+        {"drape.stretched-place"_id,
+         io::file_name(o.garment) + " on " + io::file_name(o.to) + ": " + outcome.stretched_at});
+  for (const Message& finding : findings)
     tool.reporter().warning(finding);
-  if (const std::string why = garment::why_stuck(garment, body);
-      fit.fits && !o.no_drape && !report.converged && !why.empty()) {
-    fit.fits = false;
-    fit.verdict = garment::FitVerdict::IMPOSSIBLE;
-    fit.reason = why;
-    fit.probability = {0, "", ""};
-  }
-  if (o.no_drape)
-    fit.state = "placed";
   write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());
     document["mode"] = o.mode;
-    document["placement"] = garment::placement_json(placed.report);
-    io::put_findings(document, placed.report.findings);
+    document["placement"] = garment::placement_json(outcome.retargeted.report);
+    io::put_findings(document, findings);
     if (dressed)
       document["garment_mesh"] = garment::mesh_json(*put_on.mesh, &*dressed);
     if (o.nearest_size)
@@ -357,7 +299,7 @@ int run(cli::Tool& tool, Options o) {
                         {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
-  if (!o.no_drape && !hopeless && !report.converged && report.misfit == garment::Misfit::NONE)
+  if (outcome.was_draped() && !report.converged && report.misfit == garment::Misfit::NONE)
     tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
                                                          " after " + std::to_string(report.steps) +
                                                          " steps; the state reached is in " +

@@ -33,7 +33,7 @@ struct EdgedOutline {
 };
 
 /// A stretch of a seam side that follows one panel's outline.
-struct Stretch {
+struct OutlineStretch {
   int panel, first, last, step; ///< vertices at its ends, direction
 };
 
@@ -47,9 +47,10 @@ int panel_at(const Garment& garment, int vertex) {
 }
 
 /// The stretches of a seam side; empty when part of it lies inside a panel.
-std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<EdgedOutline>& outlines,
-                                  const std::vector<int>& run) {
-  std::vector<Stretch> stretches;
+std::vector<OutlineStretch> stretches_of(const Garment& garment,
+                                         const std::vector<EdgedOutline>& outlines,
+                                         const std::vector<int>& run) {
+  std::vector<OutlineStretch> stretches;
   for (std::size_t i = 0; i + 1 < run.size(); ++i) {
     if (run[i] == run[i + 1])
       continue;
@@ -69,7 +70,7 @@ std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<Edge
 }
 
 /// Whole edges along a stretch, in its direction.
-void add_runs(const EdgedOutline& outline, const Stretch& stretch,
+void add_runs(const EdgedOutline& outline, const OutlineStretch& stretch,
               std::vector<pattern::Run>& runs) {
   const int from = outline.position.at(stretch.first), to = outline.position.at(stretch.last);
   const auto edge_from = [&](int start) {
@@ -273,12 +274,12 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
   result.source_format = "pattern";
   const std::optional<DrawnPattern> drawn = drawn_pattern(shape);
   std::vector<EdgedOutline> outlines = edged_outlines(shape, drawn);
-  std::vector<std::array<std::vector<Stretch>, 2>> sides;
+  std::vector<std::array<std::vector<OutlineStretch>, 2>> sides;
   for (const pattern::MeshSeam& seam : garment.panels.seams) {
     sides.push_back(
         {stretches_of(garment, outlines, seam.a), stretches_of(garment, outlines, seam.b)});
     for (const auto& side : sides.back())
-      for (const Stretch& s : side)
+      for (const OutlineStretch& s : side)
         outlines[s.panel].ends[outlines[s.panel].position.at(s.first)] =
             outlines[s.panel].ends[outlines[s.panel].position.at(s.last)] = 1;
   }
@@ -311,9 +312,9 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
     seam.name = from.name;
     seam.kind = from.kind;
     seam.open = from.open;
-    for (const Stretch& stretch : sides[s][0])
+    for (const OutlineStretch& stretch : sides[s][0])
       add_runs(outlines[stretch.panel], stretch, seam.a);
-    for (const Stretch& stretch : sides[s][1])
+    for (const OutlineStretch& stretch : sides[s][1])
       add_runs(outlines[stretch.panel], stretch, seam.b);
     if (drawn)
       for (const pattern::Seam& same : drawn->pattern->seams)

@@ -1,51 +1,13 @@
 /// A retargeted garment that cannot be freed where it was placed is sewn anew from its panels.
-#include <gtest/gtest.h>
-#include <mannequin.hpp>
-#include <measures.hpp>
-#include <sloper/base/progress.hpp>
-#include <sloper/body/measure_scan.hpp>
-#include <sloper/garment/bind/bind.hpp>
-#include <sloper/garment/drape/drape.hpp>
+#include "worn_skirt.hpp"
+
 #include <sloper/garment/retarget/drape_retargeted.hpp>
-#include <sloper/garment/scene/scene.hpp>
 #include <sloper/garment/sewing.hpp>
-#include <sloper/io/json.hpp>
-#include <sloper/pattern/mesh/mesh_pattern.hpp>
-#include <sloper/pattern/place/place_panels.hpp>
-#include <sloper/pattern/read/read_pattern.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;
 
 namespace {
-
-struct Figure {
-  body::Body body;
-  io::Json truth;
-
-  explicit Figure(const std::string& preset) {
-    const samples::MadeMannequin made = samples::make_mannequin(samples::preset(preset));
-    body = body::measure_scan(made.mesh, preset, "", {}, silent_reporter()).body;
-    truth = made.truth;
-  }
-};
-
-/// A skirt at rest on the figure that it was drafted for, on edges of 25 mm.
-Garment worn_skirt(const Figure& figure) {
-  const pattern::Pattern source =
-      pattern::read_pattern_json(samples::pattern_document(samples::draft_skirt(
-                                     samples::measures_from_body(figure.truth, "figure"))),
-                                 "skirt");
-  Garment garment;
-  garment.panels = pattern::mesh_pattern(source, 0.025, "skirt");
-  garment.panels.source = std::make_shared<pattern::Pattern>(source);
-  pattern::place_panels(source, figure.body, garment.panels);
-  const DrapeReport report =
-      drape(garment, &figure.body, preset_settings("standard"), silent_reporter());
-  EXPECT_TRUE(report.converged);
-  bind_garment(garment, figure.body);
-  return garment;
-}
 
 /// Draws the hem through the body to the other side.
 void tangle(Garment& garment) {
@@ -135,4 +97,18 @@ TEST_F(ASkirtOnAnotherFigure, without_its_pattern_or_a_second_mesh_is_not_sewn_a
   EXPECT_EQ(why(nameless), "it does not know its pattern");
   settings.levels = 1;
   EXPECT_EQ(why(*s_skirt), "it is to be draped on the given mesh alone");
+}
+
+TEST_F(ASkirtOnAnotherFigure, whose_panels_do_not_sew_whole_is_left_as_it_was_placed) {
+  Retargeted retargeted = placed(RetargetMode::KEEP_FIT);
+  tangle(retargeted.garment);
+  retargeted.is_tangled = true;
+  const std::vector<Vec3> before = retargeted.garment.position;
+  DrapeSettings settings = preset_settings("standard");
+  settings.max_steps = 2;
+  const DrapeReport report = drape_it(retargeted, RetargetMode::KEEP_FIT, settings);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.repairs.back(), "not sewn anew: its seams did not close");
+  EXPECT_EQ(retargeted.garment.particle_of, s_skirt->particle_of);
+  EXPECT_EQ(retargeted.garment.position, before);
 }

@@ -1,0 +1,77 @@
+/// The whole of a retargeting: what is draped, what is let out, what is refused before a drape.
+#include "worn_skirt.hpp"
+
+#include <sloper/garment/retarget/retarget_job.hpp>
+
+using namespace sloper;
+using namespace sloper::garment;
+
+class ARetargetedSkirt : public testing::Test {
+protected:
+  static void SetUpTestSuite() {
+    s_from = new Figure("f-165-a");
+    s_skirt = new Garment(worn_skirt(*s_from));
+  }
+  static void TearDownTestSuite() {
+    delete s_skirt;
+    delete s_from;
+  }
+
+  struct Wish {
+    RetargetMode mode = RetargetMode::KEEP_FIT;
+    FitPolicy policy = standard_fit_policy();
+    bool no_drape = false;
+    double max_seconds = 0;
+  };
+
+  static RetargetOutcome on(const Figure& figure, const Wish& wish) {
+    const collision::BodyCollider skin(figure.body.skin);
+    DrapeSettings settings = preset_settings("standard");
+    settings.max_seconds = wish.max_seconds;
+    return retarget_and_judge({.source = *s_skirt,
+                               .body = figure.body,
+                               .skin = skin,
+                               .skin_sha256 = "of the other",
+                               .mode = wish.mode,
+                               .settings = settings,
+                               .policy = wish.policy,
+                               .no_drape = wish.no_drape},
+                              silent_reporter());
+  }
+
+  inline static Figure* s_from = nullptr;
+  inline static Garment* s_skirt = nullptr;
+};
+
+TEST_F(ARetargetedSkirt, that_is_cut_anew_is_at_rest_and_fits) {
+  const RetargetOutcome outcome = on(Figure("f-160-a"), {});
+  EXPECT_TRUE(outcome.was_draped());
+  EXPECT_TRUE(outcome.report.converged) << stop_text(outcome.report);
+  EXPECT_TRUE(outcome.fit.fits) << outcome.fit.reason;
+  EXPECT_EQ(outcome.retargeted.garment.body_sha256, "of the other");
+  EXPECT_EQ(outcome.retargeted.report.gradings, 1);
+}
+
+TEST_F(ARetargetedSkirt, that_is_too_tight_by_the_policy_is_let_out_and_draped_again) {
+  Wish wish;
+  wish.policy.own.all.strain_max = 0.001; // any skirt that hangs is stretched by more
+  const RetargetOutcome outcome = on(Figure("f-160-a"), wish);
+  EXPECT_GT(outcome.retargeted.report.gradings, 1);
+}
+
+TEST_F(ARetargetedSkirt, whose_cloth_does_not_reach_round_is_not_draped) {
+  const RetargetOutcome outcome = on(Figure("f-165-plus"), {.mode = RetargetMode::KEEP_FABRIC});
+  EXPECT_FALSE(outcome.was_draped());
+  EXPECT_FALSE(outcome.fit.fits);
+  EXPECT_EQ(outcome.fit.verdict, FitVerdict::TOO_SMALL);
+  EXPECT_EQ(outcome.report.stop_reason, StopReason::NOT_DRAPED);
+  EXPECT_EQ(outcome.report.stop_detail, outcome.fit.reason);
+}
+
+TEST_F(ARetargetedSkirt, that_is_only_placed_says_so) {
+  const RetargetOutcome outcome =
+      on(Figure("f-160-a"), {.mode = RetargetMode::KEEP_FABRIC, .no_drape = true});
+  EXPECT_FALSE(outcome.was_draped());
+  EXPECT_EQ(outcome.report.stop_reason, StopReason::PLACED_ONLY);
+  EXPECT_EQ(outcome.fit.state, "placed");
+}
