@@ -11,6 +11,7 @@
 #include <body/part_labels.hpp>
 #include <body/scan_findings.hpp>
 #include <body/skin_profile.hpp>
+#include <body/surface/head_sacs.hpp>
 #include <body/surface/skin_surface.hpp>
 #include <body/surface/touching_skin.hpp>
 #include <sloper/base/random.hpp>
@@ -384,6 +385,18 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", opened.place.x(), opened.place.y(),
                   opened.place.z());
     body.scan.findings.push_back({"scan.parts-touch"_id, "info", text, place});
+  }
+  if (const ClosedSacs closed = close_head_sacs(body.skin, body.face_part); closed.sacs > 0) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "the head is hollow: %d faces (%.0f cm2) of mouth and eyes that cannot be seen from "
+        "outside are left out of the skin",
+        closed.faces, 1e4 * closed.area_m2);
+    char place[80];
+    std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", closed.place.x(), closed.place.y(),
+                  closed.place.z());
+    body.scan.findings.push_back({"scan.hollow-head"_id, "info", text, place});
   }
   // the origin goes below the middle of the hip joints
   Vec3 origin = Vec3::Zero();

@@ -37,9 +37,8 @@ std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh,
   return border;
 }
 
-/// The border as simple loops. Where holes meet in a vertex a walk comes back to it: what it went
-/// around is a loop of its own.
-/// @return empty where the border does not close
+} // namespace
+
 std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>& border) {
   std::vector<char> used(border.size(), 0);
   auto next_of = [&](int v) {
@@ -75,8 +74,6 @@ std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>
   }
   return loops;
 }
-
-} // namespace
 
 TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
                        const std::vector<char>& is_body, std::vector<int>& number) {

@@ -1,5 +1,6 @@
 #pragma once
 /// What a scan's own faces need before cloth can lie on them: joined, oriented, closed.
+#include <array>
 #include <cstdint>
 #include <sloper/geometry/triangle_mesh.hpp>
 #include <vector>
@@ -46,6 +47,12 @@ struct Hole {
 /// `most` of them.
 std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list,
                            double least, std::size_t most);
+/// A border as simple loops. Where holes meet in a vertex a walk comes back to it: what it went
+/// around is a loop of its own.
+/// @param border  edges from vertex to vertex, sorted, in the direction in which the loops shall
+/// run
+/// @return empty where the border does not close
+std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>& border);
 /// Closes every hole with a fan around its middle.
 /// @param widest m; holes that lie wholly below `low` or above `high` may be of any width: soles
 /// and a crown that were cut off are as good as flat
