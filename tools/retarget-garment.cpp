@@ -49,7 +49,9 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.option("--fabric", o.fabric, "of a mesh: its fabric (default: cotton-poplin)")
       .check(cli::one_of(fabric_names()));
   tool.flag("--nearest-size", o.nearest_size,
-            "of NAME@SIZE.json take the size beside it whose own body is nearest to the other one");
+            "of NAME@SIZE.json take the size beside it whose own body is nearest to the other one, "
+            "by the "
+            "girths that the garment goes round");
   tool.option("--to", o.to, "body.json of the other body, from scan-landmarks")
       .required()
       .check(cli::input_file());
@@ -238,7 +240,9 @@ int run(cli::Tool& tool, Options o) {
   body.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
   garment::SizeRanking sizes;
   if (o.nearest_size) {
-    sizes = garment::rank_sizes(garment::sizes_beside(o.garment), body);
+    const std::vector<std::string> files = garment::sizes_beside(o.garment);
+    sizes = garment::rank_sizes(files, body,
+                                garment::girths_covered(garment::read_garment(o.garment), body));
     o.garment = sizes.sizes.front().file;
     tool.reporter().info(garment::ranking_text(sizes));
   }

@@ -1,8 +1,11 @@
 #include <sloper/garment/retarget/nearest_size.hpp>
 
+#include <garment/fit/fit_places.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/text.hpp>
+#include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/retarget/retarget.hpp>
 #include <sloper/io/json.hpp>
 
 #include <algorithm>
@@ -16,6 +19,9 @@ namespace {
 
 constexpr double LEAST_SPREAD_M = 0.002; // of a girth: nothing is known better
 
+/// Before the name of a level in Garment::body_girths_m.
+const std::string LEVEL = "level:";
+
 struct KnownGirth {
   double value_m, spread_m;
 };
@@ -27,7 +33,7 @@ std::map<std::string, KnownGirth> girths_known(const body::Body& body) {
       known[name] = {girth.value_m, std::max(girth.spread_m, LEAST_SPREAD_M)};
   for (const auto& [name, level] : body.levels)
     if (level.girth_m > 0)
-      known["level:" + name] = {level.girth_m, std::max(level.girth_spread_m, LEAST_SPREAD_M)};
+      known[LEVEL + name] = {level.girth_m, std::max(level.girth_spread_m, LEAST_SPREAD_M)};
   return known;
 }
 
@@ -44,6 +50,18 @@ Girths girths_of_document(const std::string& file) {
     throw input_error("garment.no-girths"_id, file, "/body/girths_m",
                       "does not know the girths of the body it hangs on", "drape it again");
   return girths;
+}
+
+/// Those of the known girths that are compared; all where the documents know none of those.
+std::map<std::string, KnownGirth> girths_to_compare(std::map<std::string, KnownGirth> known,
+                                                    const std::vector<std::string>& files,
+                                                    const std::set<std::string>& compared) {
+  std::map<std::string, KnownGirth> chosen;
+  const Girths of_first = girths_of_document(files.front());
+  for (const auto& [name, girth] : known)
+    if (compared.count(name) > 0 && of_first.count(name) > 0)
+      chosen[name] = girth;
+  return chosen.empty() ? known : chosen;
 }
 
 } // namespace
@@ -69,8 +87,33 @@ std::vector<std::string> sizes_beside(const std::string& garment) {
   return files;
 }
 
-SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& body) {
-  const auto known = girths_known(body);
+std::set<std::string> girths_covered(const Garment& garment, const body::Body& body) {
+  if (garment.bind.empty() || !why_impossible(garment, body).empty())
+    return {};
+  Garment placed = garment;
+  placed.position = place_garment(garment, body);
+  const std::vector<Triangle> triangles = placed.particle_triangles();
+  std::set<std::string> covered;
+  for (const FitPlace& place : fit_places(body)) {
+    const std::vector<char> takes_part = cloth_of(placed, place);
+    const auto height = [&](int particle) {
+      return place.normal.dot(placed.position[particle] - place.center);
+    };
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      const auto& [a, b, c] = triangles[f];
+      if (!takes_part[f] || std::min({height(a), height(b), height(c)}) > 0 ||
+          std::max({height(a), height(b), height(c)}) < 0)
+        continue;
+      covered.insert(place.kind == "level" ? LEVEL + place.name : place.name);
+      break;
+    }
+  }
+  return covered;
+}
+
+SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& body,
+                       const std::set<std::string>& compared) {
+  const auto known = girths_to_compare(girths_known(body), files, compared);
   struct Candidate {
     SizeRank rank;
     Girths girths;
@@ -99,6 +142,9 @@ SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& 
       candidates.begin(), candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.rank.distance < b.rank.distance; });
   SizeRanking ranking;
+  for (const auto& [name, girth] : known)
+    if (candidates.front().girths.count(name) > 0)
+      ranking.compared.push_back(name);
   for (const Candidate& c : candidates)
     ranking.sizes.push_back(c.rank);
   if (candidates.size() < 2)
@@ -132,7 +178,9 @@ std::string ranking_text(const SizeRanking& ranking) {
 }
 
 io::Json ranking_json(const SizeRanking& ranking) {
-  io::Json j = {{"sureness", ranking.sureness}, {"nearest_first", io::Json::array()}};
+  io::Json j = {{"sureness", ranking.sureness},
+                {"compared", ranking.compared},
+                {"nearest_first", io::Json::array()}};
   for (const SizeRank& size : ranking.sizes)
     j["nearest_first"].push_back(
         {{"file", io::file_name(size.file)}, {"distance", size.distance}, {"girths", size.girths}});

@@ -1,7 +1,10 @@
 /// The whole of a retargeting: what is draped, what is let out, what is refused before a drape.
 #include "worn_skirt.hpp"
 
+#include <sloper/garment/retarget/nearest_size.hpp>
 #include <sloper/garment/retarget/retarget_job.hpp>
+
+#include <support/scratch_folder.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;
@@ -74,4 +77,37 @@ TEST_F(ARetargetedSkirt, that_is_only_placed_says_so) {
   EXPECT_FALSE(outcome.was_draped());
   EXPECT_EQ(outcome.report.stop_reason, StopReason::PLACED_ONLY);
   EXPECT_EQ(outcome.fit.state, "placed");
+}
+
+TEST_F(ARetargetedSkirt, is_chosen_by_the_girths_that_it_goes_round) {
+  const Figure other("f-160-a");
+  const std::set<std::string> covered = girths_covered(*s_skirt, other.body);
+  EXPECT_TRUE(covered.count("level:hip"));
+  EXPECT_TRUE(covered.count("level:abdomen"));
+  for (const char* far : {"neck", "level:bust", "upper_arm_l", "wrist_r", "ankle_min_l"})
+    EXPECT_FALSE(covered.count(far)) << far;
+
+  // a wide hip on a body that is slim elsewhere: of all girths the small size is nearer
+  const test::ScratchFolder folder;
+  const auto write = [&](const std::string& size, double elsewhere, double below) {
+    io::Json girths = io::Json::object();
+    for (const auto& [name, girth] : other.body.girths)
+      girths[name] = elsewhere * girth.value_m;
+    for (const auto& [name, level] : other.body.levels)
+      if (level.girth_m > 0)
+        girths["level:" + name] =
+            (covered.count("level:" + name) > 0 ? below : elsewhere) * level.girth_m;
+    io::Json document = io::new_document("garment", 1, "test");
+    document["body"] = {{"sha256", ""}, {"girths_m", girths}};
+    io::write_json(folder / ("skirt@" + size + ".json"), document);
+  };
+  write("S", 1.0, 0.9);
+  write("L", 1.15, 1.0);
+  const auto files = sizes_beside(folder / "skirt@S.json");
+  EXPECT_EQ(io::file_name(rank_sizes(files, other.body).sizes[0].file), "skirt@S.json");
+  const SizeRanking ranking = rank_sizes(files, other.body, covered);
+  EXPECT_EQ(io::file_name(ranking.sizes[0].file), "skirt@L.json");
+  EXPECT_EQ(ranking.compared.size(), static_cast<std::size_t>(ranking.sizes[0].girths));
+  EXPECT_EQ(rank_sizes(files, other.body, {"no such girth"}).compared,
+            rank_sizes(files, other.body).compared);
 }

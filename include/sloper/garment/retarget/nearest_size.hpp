@@ -1,8 +1,10 @@
 #pragma once
 /// Which size of a garment was draped on the body most like another one.
 #include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
 #include <sloper/io/json_fwd.hpp>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace sloper::garment {
 struct SizeRank {
   std::string file; ///< NAME@SIZE.json
   /// Root mean square of the differences of girths, shares of the body's, between the body that it
-  /// was draped on and the other: of all girths and levels that both have.
+  /// was draped on and the other: of the girths and levels compared that both have.
   double distance = 0;
   int girths = 0; ///< how many
 };
@@ -22,15 +24,29 @@ struct SizeRanking {
   /// How likely the first is nearer than the second, given what the girths of the body are
   /// uncertain by (taken as independent and normal); 1 where there is one size.
   double sureness = 1;
+  std::vector<std::string> compared; ///< names of the girths that were compared
 };
 
 /// The files NAME@*.json beside a garment document NAME@SIZE.json, itself among them.
 /// @throws Error INPUT where its name has no size
 std::vector<std::string> sizes_beside(const std::string& garment);
 
+/// The girths and levels of a body that a garment goes round there, as Garment::body_girths_m names
+/// them: a skirt is chosen by waist and hip, whatever the neck and the arms are.
+///
+/// The garment is placed by its body-relative coordinates, without a drape; cloth crosses the plane
+/// of a girth or it does not. Cost: about 10 ms for 4,000 particles.
+/// @param garment  in any size, bound
+/// @return none where it cannot be placed on the body
+std::set<std::string> girths_covered(const Garment& garment, const body::Body& body);
+
+/// Ranks sizes by how near the bodies are that they were draped on.
 /// @param files  garment documents, one at least
+/// @param compared  names of the girths to compare, of girths_covered(); all where it is empty or
+/// the documents know none of them
 /// @throws Error INPUT: a document that is no garment, or does not know its body's girths
-SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& body);
+SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& body,
+                       const std::set<std::string>& compared = {});
 
 /// "of 3 sizes shirt@M.json is nearest (2.1 %), with a probability of 93 %; then ..."
 std::string ranking_text(const SizeRanking& ranking);
