@@ -56,6 +56,7 @@ struct PanelLayout {
   std::vector<Vec3> flat; ///< before
   std::vector<Triangle> triangles;
   Eigen::MatrixX2d log_stretch;   ///< wanted, at vertices: weft, warp
+  std::vector<Vec2> stretch;      ///< the same as a factor, of each triangle
   Eigen::MatrixX2d solved, seams; ///< the layout; what the seams pull with
   std::vector<FlatTriangle> shapes;
   std::vector<Eigen::Triplet<double>> entries;
@@ -174,7 +175,7 @@ PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& pa
 }
 
 /// What weft and warp of a triangle are to be stretched by.
-Vec2 stretch_of(const PanelLayout& layout, const Triangle& t) {
+Vec2 wanted_stretch(const PanelLayout& layout, const Triangle& t) {
   Vec2 log = Vec2::Zero();
   for (const int v : t)
     log += layout.log_stretch.row(v).transpose() / 3;
@@ -185,6 +186,9 @@ Vec2 stretch_of(const PanelLayout& layout, const Triangle& t) {
 /// threads not turned.
 void start_layout(PanelLayout& layout) {
   const int n = layout.panel->n_vertices;
+  layout.stretch.clear();
+  for (const Triangle& t : layout.triangles)
+    layout.stretch.push_back(wanted_stretch(layout, t));
   const auto hold = [&](std::vector<Eigen::Triplet<double>>&
                             entries) { // fixes the free translation, moves nothing
     for (int i = 0; i < n; ++i)
@@ -194,10 +198,8 @@ void start_layout(PanelLayout& layout) {
   for (std::size_t f = 0; f < layout.triangles.size(); ++f)
     for (int i = 0; i < 3 && layout.shapes[f].area > 0; ++i)
       right.row(layout.triangles[f][i]) +=
-          layout.shapes[f].area * layout.shapes[f]
-                                      .gradient[i]
-                                      .cwiseProduct(stretch_of(layout, layout.triangles[f]))
-                                      .transpose();
+          layout.shapes[f].area *
+          layout.shapes[f].gradient[i].cwiseProduct(layout.stretch[f]).transpose();
   layout.solved.resize(n, 2);
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<Eigen::Triplet<double>> entries;
@@ -227,7 +229,7 @@ double lay_out(PanelLayout& layout) {
     for (int i = 0; i < 3; ++i)
       jacobian += layout.solved.row(t[i]).transpose() * flat.gradient[i].transpose();
     const Vec2 weft = jacobian.col(0).normalized(), warp = jacobian.col(1).normalized(),
-               stretch = stretch_of(layout, t);
+               stretch = layout.stretch[f];
     const Vec2 square = (weft + Vec2(warp.y(), -warp.x())).normalized(); // halfway to a right angle
     Mat2 wanted;
     wanted.col(0) = stretch[0] * ((1 - SQUARE) * weft + SQUARE * square).normalized();
