@@ -80,7 +80,8 @@ std::vector<int> through(const Garment& garment, const pattern::PanelInfo& panel
 
 } // namespace
 
-const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name) {
+const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name,
+                                      const std::string& file, const std::string& place) {
   std::string names;
   std::vector<std::string> words;
   for (const pattern::PanelInfo& p : garment.panels.panels) {
@@ -89,8 +90,9 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
     words.push_back(p.name);
     names += (names.empty() ? "" : ", ") + p.name;
   }
-  throw input_error("garment.no-panel"_id, "", "panel \"" + name + "\"",
-                    "is not in the garment" + did_you_mean(name, words), "panels are " + names);
+  throw input_error("garment.no-panel"_id, file, place,
+                    "no panel \"" + name + "\" in the garment" + did_you_mean(name, words),
+                    "panels are " + names);
 }
 
 int particle_at(const Garment& garment, int vertex) {

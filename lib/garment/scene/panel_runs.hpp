@@ -7,8 +7,10 @@
 
 namespace sloper::garment {
 
+/// @param file  document that names it, for the message, and `place`, a JSON pointer there
 /// @throws Error INPUT naming the panels when there is none of that name
-const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name);
+const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name,
+                                      const std::string& file = {}, const std::string& place = {});
 
 /// The particle of a panel vertex, unsewn or sewn.
 int particle_at(const Garment& garment, int vertex);
