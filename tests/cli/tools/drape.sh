@@ -244,6 +244,44 @@ assert fall < edge, (fall, edge)
 END
 }
 
+# The front of the sample shirt is buttoned: not sewn, and closed.
+case_a_front_that_is_not_sewn_is_closed_by_buttons() {
+  local source
+  source=$(dirname "${BASH_SOURCE[0]}")/../../../samples/fabric
+  cp "$source"/*.json "$source"/poplin.csv .
+  run 0 "${program%/*}/../samples/make-pattern" shirt --band-collar --body a.body.json -o p.json
+  run 0 "${program%/*}/pattern-mesh" -q --edge-length 0.025 --edits open-front.edits.json --body a.body.json -o panels.json p.json
+  run 0 "$program" -q --body a.body.json --panels panels.json --scene buttons.scene.json --accuracy draft --report report.json -o shirt.json
+  python3 - << 'END' || fail "the front is not closed, or does not bend by direction"
+import json
+
+points = {}
+place = []
+at = []
+for words in map(str.split, open("shirt.obj")):
+    if words[:1] == ["v"]:
+        at.append([float(x) for x in words[1:4]])
+    elif words[:1] == ["vt"]:
+        place.append([float(x) for x in words[1:3]])
+    elif words[:1] == ["f"]:
+        for corner in words[1:]:
+            v, vt = corner.split("/")[:2]
+            points[int(vt) - 1] = at[int(v) - 1]
+first = 0
+edge = {}
+for panel in json.load(open("shirt.json"))["panels"]:
+    ids = [v for v in range(first, first + panel["vertices"]) if v in points]
+    first += panel["vertices"]
+    if panel["name"] in ("front_l", "front_r"):
+        low = min(ids, key=lambda v: (round(abs(place[v][0]), 4), place[v][1]))
+        edge[panel["name"]] = points[low]
+gap = sum((a - b) ** 2 for a, b in zip(edge["front_l"], edge["front_r"])) ** 0.5
+assert gap < 0.008, gap
+active = {e["name"] for e in json.load(open("report.json"))["effects"] if e["active"]}
+assert {"closures", "orthotropic_bending"} <= active, active
+END
+}
+
 case_a_cache_changes_no_byte() { a_cache_changes_no_byte; }
 
 case_redrapes_are_the_same_bytes_for_any_threads_and_say_what_they_cannot_do() {
