@@ -221,6 +221,13 @@ DrapeSettings preset_settings(const std::string& accuracy) {
               "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
 }
 
+std::vector<std::string> knob_names() {
+  std::vector<std::string> names;
+  for (const Knob& k : knobs())
+    names.emplace_back(k.name);
+  return names;
+}
+
 void set_knob(DrapeSettings& settings, const std::string& name, double value) {
   std::string names;
   std::vector<std::string> words;

@@ -67,6 +67,9 @@ DrapeSettings preset_settings(const std::string& accuracy);
 /// Names of the presets from coarse to fine.
 std::vector<std::string> accuracy_names();
 
+/// Names of all knobs, in the order of report.json's `settings`.
+std::vector<std::string> knob_names();
+
 /// Sets one knob by its name in report.json's `settings`.
 /// @param value  in the unit of the name
 /// @throws Error USAGE naming the knobs, or the range
