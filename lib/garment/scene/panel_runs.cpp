@@ -99,6 +99,15 @@ int particle_at(const Garment& garment, int vertex) {
   return garment.particle_of.empty() ? vertex : garment.particle_of[vertex];
 }
 
+std::vector<int> fold_particles(const Garment& garment, const PanelRun& run) {
+  const pattern::PanelInfo& panel = panel_named(garment, run.panel);
+  std::vector<int> particles;
+  for (int v : through(garment, panel, nearest_vertex(garment, panel, run.from),
+                       nearest_vertex(garment, panel, run.to)))
+    particles.push_back(particle_at(garment, v));
+  return particles;
+}
+
 std::vector<int> run_vertices(const Garment& garment, const PanelRun& run) {
   const pattern::PanelInfo& panel = panel_named(garment, run.panel);
   const int from = nearest_vertex(garment, panel, run.from),

@@ -3,12 +3,14 @@
 #include <support/hung_sheet.hpp>
 #include <support/scratch_folder.hpp>
 
+#include <garment/scene/crease_angles.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 #include <gtest/gtest.h>
 #include <sloper/cloth/forces/closures.hpp>
 #include <sloper/garment/drape/drape.hpp>
 #include <sloper/garment/materials.hpp>
 #include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/sewing.hpp>
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
 
@@ -160,6 +162,21 @@ TEST(Closures, buttons_close_a_sheet_to_a_tube_and_cost_nothing_where_there_are_
     EXPECT_LT((a - b).norm(), 2 * settings.self_thickness_m + 0.002) << "row " << row;
   }
   EXPECT_TRUE(with.converged);
+}
+
+TEST(Crease, goes_through_the_panel_from_edge_to_edge_and_is_refused_where_nothing_folds) {
+  // A line whose ends both lie on the outline followed it, where there is no hinge.
+  Garment g = hung_sheet(4, 4, 0.05);
+  g.scene.creases = {{{"sheet", Vec2(0.5, 0), Vec2(0.5, 1)}, 2.0, 1}};
+  g.particle_of.resize(25);
+  for (int v = 0; v < 25; ++v)
+    g.particle_of[v] = v;
+  g.position = g.panels.placed;
+  const cloth::ClothMesh mesh = cloth_mesh_of(g);
+  const std::vector<double> angles = crease_angles(mesh, g, false);
+  EXPECT_EQ(std::count_if(angles.begin(), angles.end(), [](double a) { return a != 0; }), 4);
+  g.scene.creases[0].run = {"sheet", Vec2(0, 1), Vec2(1, 1)};
+  EXPECT_THROW(crease_angles(mesh, g, false), Error);
 }
 
 TEST(RollLine, folds_a_standing_collar_over) {
