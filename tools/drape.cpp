@@ -127,7 +127,7 @@ garment::DrapeOutcome redrape(cli::Tool& tool, const Options& o, garment::Garmen
   garment = std::move(set.garments[medoid]);
   garment::keep_spread(spread, garment);
   garment::DrapeOutcome outcome;
-  outcome.report = std::move(set.reports[medoid]);
+  outcome.report = garment::whole_report(set, medoid);
   outcome.document = garment::report_json(outcome.report, tool.name());
   outcome.document["redrapes"] = garment::redrape_costs(set);
   if (spread.at_rest < spread.count)
@@ -223,6 +223,8 @@ int run(cli::Tool& tool, Options& o) {
   garment::apply_scene(scene, garment);
   if (!o.material.empty())
     garment.materials[""] = garment::material_from(o.material);
+  for (const Message& finding : garment::unused_materials(scene, o.scene, garment))
+    tool.reporter().warning(finding);
   garment::apply_interfacing(scene, garment);
 
   std::vector<garment::Garment> layers;

@@ -46,7 +46,10 @@ inline void add_options(cli::Tool& tool, Options& o) {
               "fabric of panels that name none: a preset such as cotton-poplin, denim, silk, "
               "jersey, or a CSV of KES-F or FAST values")
       .type_name("NAME");
-  tool.option("--set", o.set, "one setting by its name in the report's settings")
+  std::string knobs;
+  for (const std::string& name : garment::knob_names())
+    knobs += (knobs.empty() ? "" : ", ") + name;
+  tool.option("--set", o.set, "one setting, by its name in the report's settings: " + knobs)
       .type_name("KNOB=VALUE");
   tool.option("--max-seconds", o.max_seconds,
               "stop after this wall time, s, with the best state so far; without --accuracy: "

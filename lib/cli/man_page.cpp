@@ -20,6 +20,14 @@ static std::string roff(const std::string& text) {
   return out;
 }
 
+/// A long list of choices may break behind each.
+static std::string breakable(const std::string& choices) {
+  std::string out;
+  for (const char c : choices)
+    out += c == '|' ? std::string("|\\:") : std::string(1, c);
+  return out;
+}
+
 static std::string man_row(const OptionRow& row) {
   std::string head;
   if (!row.operand.empty())
@@ -29,7 +37,7 @@ static std::string man_row(const OptionRow& row) {
   for (const std::string& l : row.longs)
     head += (head.empty() ? "" : ", ") + ("\\fB\\-\\-" + roff(l)) + "\\fR";
   if (row.operand.empty() && !row.value.empty())
-    head += " \\fI" + roff(row.value) + "\\fR";
+    head += " \\fI" + breakable(roff(row.value)) + "\\fR";
   std::string text = row.description;
   if (!row.range.empty())
     text += " [" + row.range + "]";
@@ -37,7 +45,9 @@ static std::string man_row(const OptionRow& row) {
     text += " (required)";
   if (row.repeats && row.operand.empty())
     text += " (may be repeated)";
-  return ".TP\n" + head + "\n" + roff(text) + "\n";
+  const std::string entry = ".TP\n" + head + "\n" + roff(text) + "\n";
+  constexpr std::size_t LONG_CHOICES = 60; // no blanks to stretch where these break
+  return row.value.size() > LONG_CHOICES ? ".na\n" + entry + ".ad\n" : entry;
 }
 
 std::string man_page(const ToolDescription& tool) {
@@ -77,7 +87,7 @@ std::string man_page(const ToolDescription& tool) {
   out += ".SH SEE ALSO\n";
   std::string others;
   for (const char* other : {"scan-landmarks", "pattern-mesh", "drape", "retarget-garment",
-                            "render-png", "make-pattern", "make-mannequin"})
+                            "render-png", "material-fit", "make-pattern", "make-mannequin"})
     if (tool.name != other)
       others += (others.empty() ? "" : ", ") + ("\\fB" + roff(other)) + "\\fR(1)";
   for (const char* document :

@@ -19,15 +19,20 @@
 /// warp and weft differ, or the bias is given, the fabric bends by direction. Shear without G: 123
 /// N/m over EB5 in per cent (FAST-3, bias extension under 5 gf/cm).
 ///
+/// Other values of KES-F and FAST (2HB, WT, RS ...), texts, and columns and rows whose name begins
+/// with # are passed over; any other name with a number is refused.
+///
 /// Stretch: the KES-F curve F = Fm (e/EMT)^p has the measured work where p = 2/LT - 1, Fm = 500
 /// gf/cm; its secant at 50 N/m, a load that garments carry, is the stiffness. FAST: the secant at
 /// the load nearest to 50 N/m that is given.
+/// Test: tests/garment/test_kes.cpp
 #include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 
 /// @param path  the file, with `#NAME` behind it to pick one fabric of several
-/// @throws Error INPUT with line: not a number, unit not known, no bending or no weight
+/// @throws Error INPUT with line and column: not a number, a column, property or unit that is not
+///   known, one that is there twice, no bending or no weight, a value no cloth has
 Material read_kes(const std::string& path);
 
 } // namespace sloper::garment

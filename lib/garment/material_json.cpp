@@ -15,18 +15,19 @@ struct MaterialKey {
   const char* name;
   double Material::*field;
   double low, high;
+  const char* measured = ""; ///< column of a table of measurements that it follows from
 };
 /// Keys that stand in each material.
 constexpr MaterialKey MATERIAL_KEYS[] = {
-    {"density_kg_m2", &Material::density_kg_m2, 1e-3, 100},
-    {"stretch_warp_n_m", &Material::stretch_warp_n_m, 1e-3, 1e9},
-    {"stretch_weft_n_m", &Material::stretch_weft_n_m, 1e-3, 1e9},
-    {"shear_n_m", &Material::shear_n_m, 0, 1e9},
-    {"bend_n_m", &Material::bend_n_m, 0, 1e3},
+    {"density_kg_m2", &Material::density_kg_m2, 1e-3, 100, "W"},
+    {"stretch_warp_n_m", &Material::stretch_warp_n_m, 1e-3, 1e9, "EMT"},
+    {"stretch_weft_n_m", &Material::stretch_weft_n_m, 1e-3, 1e9, "EMT"},
+    {"shear_n_m", &Material::shear_n_m, 0, 1e9, "G"},
+    {"bend_n_m", &Material::bend_n_m, 0, 1e3, "B"},
     {"friction_body", &Material::friction_body, 0, 10},
-    {"friction_self", &Material::friction_self, 0, 10},
+    {"friction_self", &Material::friction_self, 0, 10, "MIU"},
     {"damping_s", &Material::damping_s, 0, 10},
-    {"thickness_m", &Material::thickness_m, 0, 0.05},
+    {"thickness_m", &Material::thickness_m, 0, 0.05, "T0"},
     {"poisson", &Material::poisson, 0, 0.95},
 };
 /// Those that stand where they are not 0.
@@ -53,9 +54,22 @@ Material named_material(const io::Node& node) {
     const std::string name = node.string();
     const bool is_file = name.find(".csv") != std::string::npos || io::ending_of(name) == ".json";
     return material_from(is_file ? io::path_beside(node.file(), name) : name);
-  } catch (const Error& e) {
-    node.fail(e.id(), e.fact());
+  } catch (const Error& e) { // the material's own file and line stay in the text
+    node.fail(e.id(), e.what());
   }
+}
+
+/// A measured fabric is held to the ranges of a written one.
+Material measured_material(const std::string& path) {
+  const Material m = read_kes(path);
+  for (const MaterialKey& key : MATERIAL_KEYS)
+    if (!(m.*key.field >= key.low && m.*key.field <= key.high))
+      throw input_error("kes.malformed"_id, path, "property " + std::string(key.measured),
+                        "its values give a " + std::string(key.name) + " of " +
+                            std::to_string(m.*key.field) + ", out of range",
+                        "it lies between " + std::to_string(key.low) + " and " +
+                            std::to_string(key.high) + "; check the units");
+  return m;
 }
 
 /// What a fabric was measured to bend by replaces what a preset says of its directions.
@@ -176,7 +190,7 @@ io::Json material_json(const Material& material) {
 Material material_from(const std::string& name_or_path) {
   const std::string file = name_or_path.substr(0, name_or_path.rfind('#'));
   if (io::ending_of(file) == ".csv")
-    return read_kes(name_or_path);
+    return measured_material(name_or_path);
   if (io::ending_of(name_or_path) == ".json")
     return read_material_file(name_or_path);
   return material_preset(name_or_path);

@@ -7,6 +7,15 @@ namespace sloper::garment {
 
 namespace {
 
+SessionInputs inputs_of(Garment& garment, const body::Body& body, const FollowedMotion& motion,
+                        const DrapeRequest& request) {
+  return {.garment = garment,
+          .body = &body,
+          .moves = motion.moves,
+          .on_frame = motion.on_frame,
+          .request = request};
+}
+
 /// Cloth that came to rest through levels of mesh then moves with the body. What came before is
 /// part of the report, and of checkpoints.
 DrapeReport go_on_in_motion(DrapeReport rest, SessionInputs inputs, const DrapeSettings& settings,
@@ -27,11 +36,7 @@ DrapeReport go_on_in_motion(DrapeReport rest, SessionInputs inputs, const DrapeS
 DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const DrapeSettings& settings,
                             const FollowedMotion& motion, Reporter& reporter,
                             const DrapeRequest& request) {
-  SessionInputs inputs{.garment = garment,
-                       .body = &body,
-                       .moves = motion.moves,
-                       .on_frame = motion.on_frame,
-                       .request = request};
+  SessionInputs inputs = inputs_of(garment, body, motion, request);
   if (!inputs.request.checkpoints.motion)
     inputs.request.checkpoints.motion = motion.moves->input();
   const bool through_levels = settings.levels > 1 && garment.particle_of.empty() &&
@@ -45,11 +50,7 @@ DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const Drap
 DrapeReport resume_in_motion(const DrapeCheckpoint& from, Garment& garment, const body::Body& body,
                              const FollowedMotion& motion, Reporter& reporter,
                              const Checkpoints& checkpoints) {
-  SessionInputs inputs{.garment = garment,
-                       .body = &body,
-                       .moves = motion.moves,
-                       .on_frame = motion.on_frame,
-                       .request = {.checkpoints = checkpoints}};
+  SessionInputs inputs = inputs_of(garment, body, motion, {.checkpoints = checkpoints});
   inputs.request.checkpoints.motion = from.motion;
   if (!from.levels)
     return DrapeSession(inputs, from, reporter).run();

@@ -1,5 +1,6 @@
 #include <garment/scene/crease_angles.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/base/error.hpp>
 
 namespace sloper::garment {
 
@@ -15,7 +16,7 @@ void firm_creases(cloth::ClothMesh& mesh, const Garment& garment) {
   for (const SceneCrease& crease : garment.scene.creases) {
     if (!(crease.firmness > 1))
       continue;
-    const std::vector<int> run = run_particles(garment, crease.run);
+    const std::vector<int> run = fold_particles(garment, crease.run);
     for (cloth::Hinge& hinge : mesh.hinges)
       if (runs_along(hinge, run))
         hinge.firmness = (crease.firmness - 1) * hinge.stiffness;
@@ -28,7 +29,8 @@ std::vector<double> crease_angles(const cloth::ClothMesh& mesh, const Garment& g
   for (const SceneCrease& crease : garment.scene.creases) {
     if (open_seams && crease.firmness > 1)
       continue;
-    const std::vector<int> run = run_particles(garment, crease.run);
+    const std::vector<int> run = fold_particles(garment, crease.run);
+    bool folds = false;
     for (std::size_t h = 0; h < mesh.hinges.size(); ++h) {
       const cloth::Hinge& hinge = mesh.hinges[h];
       for (std::size_t k = 0; k + 1 < run.size(); ++k) {
@@ -44,8 +46,15 @@ std::vector<double> crease_angles(const cloth::ClothMesh& mesh, const Garment& g
                     t.particle[(c + 1) % 3] == hinge.particle[1] &&
                     t.particle[(c + 2) % 3] == hinge.particle[2];
         rest[h] = left ? crease.angle_rad : -crease.angle_rad;
+        folds = true;
       }
     }
+    if (!folds && !open_seams)
+      throw input_error("scene.bad-effect"_id, "",
+                        "crease or roll line of panel " + crease.run.panel,
+                        "runs along a free edge, where there is nothing to fold",
+                        "give ends within the cloth, or draw it in the pattern as a line of kind "
+                        "roll");
   }
   return rest;
 }

@@ -80,7 +80,8 @@ std::vector<int> through(const Garment& garment, const pattern::PanelInfo& panel
 
 } // namespace
 
-const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name) {
+const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name,
+                                      const std::string& file, const std::string& place) {
   std::string names;
   std::vector<std::string> words;
   for (const pattern::PanelInfo& p : garment.panels.panels) {
@@ -89,12 +90,22 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
     words.push_back(p.name);
     names += (names.empty() ? "" : ", ") + p.name;
   }
-  throw input_error("garment.no-panel"_id, "", "panel \"" + name + "\"",
-                    "is not in the garment" + did_you_mean(name, words), "panels are " + names);
+  throw input_error("garment.no-panel"_id, file, place,
+                    "no panel \"" + name + "\" in the garment" + did_you_mean(name, words),
+                    "panels are " + names);
 }
 
 int particle_at(const Garment& garment, int vertex) {
   return garment.particle_of.empty() ? vertex : garment.particle_of[vertex];
+}
+
+std::vector<int> fold_particles(const Garment& garment, const PanelRun& run) {
+  const pattern::PanelInfo& panel = panel_named(garment, run.panel);
+  std::vector<int> particles;
+  for (int v : through(garment, panel, nearest_vertex(garment, panel, run.from),
+                       nearest_vertex(garment, panel, run.to)))
+    particles.push_back(particle_at(garment, v));
+  return particles;
 }
 
 std::vector<int> run_vertices(const Garment& garment, const PanelRun& run) {

@@ -7,11 +7,18 @@
 
 namespace sloper::garment {
 
+/// @param file  document that names it, for the message, and `place`, a JSON pointer there
 /// @throws Error INPUT naming the panels when there is none of that name
-const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name);
+const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name,
+                                      const std::string& file = {}, const std::string& place = {});
 
 /// The particle of a panel vertex, unsewn or sewn.
 int particle_at(const Garment& garment, int vertex);
+
+/// Particles of a fold line, in order: the shortest way over edges of the panel's mesh, through it
+/// also where both ends lie on its outline. @throws Error INPUT naming the panels when there is
+/// none of that name
+std::vector<int> fold_particles(const Garment& garment, const PanelRun& run);
 
 /// Panel vertices of a run, in order. @throws Error INPUT naming the panels when there is none of
 /// that name

@@ -47,6 +47,32 @@ const std::vector<Knob>& knobs() {
   return table;
 }
 
+void mention(const io::Node& panel, std::vector<Scene::PanelMention>& mentions) {
+  mentions.push_back({panel.string(), panel.file(), panel.pointer()});
+}
+
+/// The panels that a scene's effects and interfacing name.
+std::vector<Scene::PanelMention> panels_mentioned(const io::Node& root) {
+  std::vector<Scene::PanelMention> mentions;
+  for (const char* key : {"pins", "bands", "attachments", "shrink", "creases", "roll_lines",
+                          "weights", "closures", "interfacing"}) {
+    if (!root.has(key))
+      continue;
+    const io::Node list = root.at(key);
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const io::Node item = list.at(k);
+      if (!item.string("panel", "").empty()) // shrink without one is of all panels
+        mention(item.at("panel"), mentions);
+      if (item.has("with"))
+        mention(item.at("with").at("panel"), mentions);
+      if (item.has("panels"))
+        for (std::size_t p = 0; p < item.at("panels").size(); ++p)
+          mention(item.at("panels").at(p), mentions);
+    }
+  }
+  return mentions;
+}
+
 } // namespace
 
 Scene read_scene(const std::string& path) {
@@ -91,10 +117,13 @@ Scene read_scene(const std::string& path) {
       set_knob(probe, name, value);
       scene.settings.emplace_back(name, value.number());
     }
+  scene.mentions = panels_mentioned(root);
   return scene;
 }
 
 void apply_scene(const Scene& scene, Garment& garment) {
+  for (const Scene::PanelMention& m : scene.mentions)
+    panel_named(garment, m.panel, m.file, m.place); // or it is said that there is none
   for (const auto& [name, material] : scene.materials)
     garment.materials[name] = material;
   const SceneEffects& from = scene.extras;
@@ -125,11 +154,31 @@ void apply_scene(const Scene& scene, Garment& garment) {
     to.pressure_pa = from.pressure_pa;
 }
 
+std::vector<Message> unused_materials(const Scene& scene, const std::string& path,
+                                      const Garment& garment) {
+  std::vector<std::string> used;
+  std::string list;
+  for (const pattern::PanelInfo& panel : garment.panels.panels) {
+    if (panel.material.empty() || std::find(used.begin(), used.end(), panel.material) != used.end())
+      continue;
+    used.push_back(panel.material);
+    list += (list.empty() ? "" : ", ") + panel.material;
+  }
+  std::vector<Message> out;
+  for (const auto& [name, material] : scene.materials)
+    if (!name.empty() && std::find(used.begin(), used.end(), name) == used.end())
+      out.push_back(
+          {"material.unused"_id, path + ": /materials/" + name + ": no panel is of this material" +
+                                     did_you_mean(name, used) +
+                                     (list.empty() ? "; panels name none, and are of \"default\""
+                                                   : "; panels are of " + list)});
+  return out;
+}
+
 void apply_interfacing(const Scene& scene, Garment& garment) {
   for (const Scene::Interfacing& interfacing : scene.interfacing)
     for (const std::string& name : interfacing.panels) {
-      const std::string wanted =
-          panel_named(garment, name).name; // or it is said that there is none
+      const std::string wanted = panel_named(garment, name).name;
       for (pattern::PanelInfo& panel : garment.panels.panels) {
         if (panel.name != wanted)
           continue;
@@ -170,6 +219,13 @@ DrapeSettings preset_settings(const std::string& accuracy) {
     }
   throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--accuracy",
               "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
+}
+
+std::vector<std::string> knob_names() {
+  std::vector<std::string> names;
+  for (const Knob& k : knobs())
+    names.emplace_back(k.name);
+  return names;
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, double value) {

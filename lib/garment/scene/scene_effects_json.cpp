@@ -39,16 +39,26 @@ std::string one_of(const Node& node, const char* key, std::initializer_list<cons
   node.at(key).fail("json.unknown-word"_id, "\"" + value + "\" is not known", "known are " + list);
 }
 
+/// (s, t) on a panel.
+Vec2 read_place(const Node& node) {
+  constexpr double ROUNDING = 1e-6;
+  const Vec2 at = node.vec2();
+  if (at.minCoeff() < -ROUNDING || at.maxCoeff() > 1 + ROUNDING)
+    node.fail("json.out-of-range"_id, "lies outside of the panel",
+              "s and t go from 0 to 1 over the panel's bounding box");
+  return at;
+}
+
 PanelRun read_run(const Node& node) {
   PanelRun run;
   run.panel = node.at("panel").string();
   if (node.has("at")) {
     if (node.has("from") || node.has("to"))
       node.fail("scene.bad-effect"_id, "names both a point (at) and a line (from, to)");
-    run.from = run.to = node.at("at").vec2();
+    run.from = run.to = read_place(node.at("at"));
   } else {
-    run.from = node.at("from").vec2();
-    run.to = node.at("to").vec2();
+    run.from = read_place(node.at("from"));
+    run.to = read_place(node.at("to"));
   }
   return run;
 }
@@ -128,9 +138,9 @@ SceneEffects read_scene_effects(const Node& node) {
     SceneShrink s;
     s.panel = n.string("panel", "");
     if (n.has("from"))
-      s.low = n.at("from").vec2();
+      s.low = read_place(n.at("from"));
     if (n.has("to"))
-      s.high = n.at("to").vec2();
+      s.high = read_place(n.at("to"));
     s.warp = in_range(n, "warp", 1, 0.05, 3);
     s.weft = in_range(n, "weft", 1, 0.05, 3);
     return s;

@@ -244,6 +244,58 @@ assert fall < edge, (fall, edge)
 END
 }
 
+case_the_manual_has_each_setting_with_its_range() {
+  local man known name range
+  man=$(dirname "${BASH_SOURCE[0]}")/../../../tools/man/drape.1.md
+  run 2 "$program" --panels panels.json --set no_such_knob=1 -o out.json
+  known=$(sed -n 's/.*settings are //p' stderr)
+  [[ $(sed -n '/^# Settings/,/^# Stretched/s/^- `\([a-z0-9_]*\)`, .*/\1/p' "$man" | paste -sd, | sed 's/,/, /g') == "$known" ]] || fail "other settings than $known"
+  for name in ${known//,/}; do
+    run 2 "$program" --panels panels.json --set "$name=1e99" -o out.json
+    range=$(sed -n 's/.*give a value from \([0-9.]*\) to \([0-9.]*\).*/\1 \2/p' stderr | awk 'function short(x) { sub(/0+$/, "", x); sub(/[.]$/, "", x); return x } { print short($1) " to " short($2) }')
+    [[ $(sed -n "s/^- .$name., \([0-9.]* to [0-9.]*\):.*/\1/p" "$man") == "$range" ]] || fail "$name has another range than $range"
+    "$program" --help | tr -s ' \n' ' ' | grep -q "$name" || fail "--help does not name $name"
+  done
+}
+
+# The front of the sample shirt is buttoned: not sewn, and closed.
+case_a_front_that_is_not_sewn_is_closed_by_buttons() {
+  local source
+  source=$(dirname "${BASH_SOURCE[0]}")/../../../samples/fabric
+  cp "$source"/*.json "$source"/poplin.csv .
+  run 0 "${program%/*}/../samples/make-pattern" shirt --band-collar --body a.body.json -o p.json
+  run 0 "${program%/*}/pattern-mesh" -q --edge-length 0.025 --edits open-front.edits.json --body a.body.json -o panels.json p.json
+  run 0 "$program" -q --body a.body.json --panels panels.json --scene buttons.scene.json --accuracy draft --report report.json -o shirt.json
+  python3 - << 'END' || fail "the front is not closed, or does not bend by direction"
+import json
+
+points = {}
+place = []
+at = []
+for words in map(str.split, open("shirt.obj")):
+    if words[:1] == ["v"]:
+        at.append([float(x) for x in words[1:4]])
+    elif words[:1] == ["vt"]:
+        place.append([float(x) for x in words[1:3]])
+    elif words[:1] == ["f"]:
+        for corner in words[1:]:
+            v, vt = corner.split("/")[:2]
+            points[int(vt) - 1] = at[int(v) - 1]
+first = 0
+edge = {}
+for panel in json.load(open("shirt.json"))["panels"]:
+    ids = [v for v in range(first, first + panel["vertices"]) if v in points]
+    first += panel["vertices"]
+    if panel["name"] in ("front_l", "front_r"):
+        low = min(ids, key=lambda v: (round(abs(place[v][0]), 4), place[v][1]))
+        edge[panel["name"]] = points[low]
+gap = sum((a - b) ** 2 for a, b in zip(edge["front_l"], edge["front_r"])) ** 0.5
+assert gap < 0.008, gap
+active = {e["name"] for e in json.load(open("report.json"))["effects"] if e["active"]}
+assert {"closures", "orthotropic_bending"} <= active, active
+END
+}
+
 case_a_cache_changes_no_byte() { a_cache_changes_no_byte; }
 
 case_redrapes_are_the_same_bytes_for_any_threads_and_say_what_they_cannot_do() {

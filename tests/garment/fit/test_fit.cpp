@@ -106,6 +106,22 @@ TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
   EXPECT_TRUE(d.report.fits) << d.report.reason;
 }
 
+TEST(fit, what_another_drape_changes_adds_to_the_uncertainty) {
+  const body::Body body = measured("f-165-a");
+  Garment once = skin_shirt(body, 0.01), again = once;
+  again.redrapes.count = 10;
+  again.redrapes.girths["waist_semantic"] = {.ease_m = 0.02, .strain = 0.01, .gap_m = 0.003};
+  const Dressed a = dressed(body, once), b = dressed(body, again);
+  const FitRow *one = row(a.report, "waist_semantic"), *ten = row(b.report, "waist_semantic");
+  ASSERT_TRUE(one && ten);
+  EXPECT_EQ(ten->ease_uncertainty_m, std::hypot(one->ease_uncertainty_m, 0.02));
+  EXPECT_EQ(ten->garment_uncertainty_m, std::hypot(one->garment_uncertainty_m, 0.02));
+  EXPECT_EQ(ten->strain_uncertainty, std::hypot(one->strain_uncertainty, 0.01));
+  EXPECT_EQ(ten->gap_uncertainty_m, std::hypot(one->gap_uncertainty_m, 0.003));
+  EXPECT_EQ(row(b.report, "bust")->ease_uncertainty_m, row(a.report, "bust")->ease_uncertainty_m)
+      << "there is nothing about it in the re-drapes";
+}
+
 TEST(fit, cloth_stretched_by_a_tenth_is_too_small_and_presses) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_shirt(body, 0.002, 0.1));

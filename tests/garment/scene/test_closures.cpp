@@ -3,12 +3,14 @@
 #include <support/hung_sheet.hpp>
 #include <support/scratch_folder.hpp>
 
+#include <garment/scene/crease_angles.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 #include <gtest/gtest.h>
 #include <sloper/cloth/forces/closures.hpp>
 #include <sloper/garment/drape/drape.hpp>
 #include <sloper/garment/materials.hpp>
 #include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/sewing.hpp>
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
 
@@ -77,6 +79,71 @@ TEST(Scene, what_it_says_of_weights_and_closures_reaches_the_garment) {
   EXPECT_EQ(g.scene.closures.size(), 1u);
 }
 
+TEST(Scene, a_panel_that_the_garment_lacks_is_named_with_file_and_place) {
+  // The message had neither, and for closures it came after sewing.
+  const std::string line = R"("from": [0, 0], "to": [1, 0])",
+                    there = R"("panel": "sheet", )" + line, wrong = R"("panel": "sheat", )" + line;
+  for (const auto& [text, place] : std::vector<std::pair<std::string, std::string>>{
+           {R"("closures": [{)" + wrong + R"(, "with": {)" + there + "}}]", "/closures/0/panel"},
+           {R"("closures": [{)" + there + R"(, "with": {)" + wrong + "}}]",
+            "/closures/0/with/panel"},
+           {R"("closures": [{"kind": "zip", )" + wrong + R"(, "with": {)" + there + "}}]",
+            "/closures/0/panel"},
+           {R"("roll_lines": [{)" + there + "}, {" + wrong + "}]", "/roll_lines/1/panel"},
+           {R"("creases": [{)" + wrong + R"(, "angle_deg": 90}])", "/creases/0/panel"},
+           {R"("weights": [{)" + wrong + "}]", "/weights/0/panel"},
+           {R"("shrink": [{)" + wrong + "}]", "/shrink/0/panel"},
+           {R"("pins": [{)" + wrong + "}]", "/pins/0/panel"},
+           {R"("bands": [{)" + wrong + "}]", "/bands/0/panel"},
+           {R"("attachments": [{)" + wrong + R"(, "anchor_m": [0, 1, 0]}])",
+            "/attachments/0/panel"},
+           {R"("interfacing": [{"panels": ["sheet", "sheat"], "material": "fusible"}])",
+            "/interfacing/0/panels/1"}}) {
+    const test::ScratchFolder folder;
+    io::write_file(folder / "scene.json", R"({"format": "scene", "version": 1, )" + text + "}");
+    Garment g = hung_sheet(4, 4, 0.05);
+    try {
+      apply_scene(read_scene(folder / "scene.json"), g);
+      FAIL() << text;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.file(), folder / "scene.json");
+      EXPECT_EQ(e.place(), place);
+      EXPECT_NE(e.fact().find("did you mean 'sheet'"), std::string::npos) << e.what();
+      EXPECT_EQ(e.next_step(), "panels are sheet");
+    }
+  }
+}
+
+TEST(Scene, a_material_that_no_panel_is_of_is_told) {
+  // Such a garment was draped of the default, in silence.
+  const test::ScratchFolder folder;
+  io::write_file(
+      folder / "scene.json",
+      R"({"format": "scene", "version": 1, "materials": {"default": "denim", "cottn": "silk"}})");
+  const Scene scene = read_scene(folder / "scene.json");
+  Garment g = hung_sheet(4, 4, 0.05);
+  const std::vector<Message> none = unused_materials(scene, "scene.json", g);
+  ASSERT_EQ(none.size(), 1u);
+  EXPECT_NE(none[0].text.find("/materials/cottn: no panel is of this material; panels name none"),
+            std::string::npos)
+      << none[0].text;
+  g.panels.panels[0].material = "cotton";
+  const std::vector<Message> near = unused_materials(scene, "scene.json", g);
+  ASSERT_EQ(near.size(), 1u);
+  EXPECT_NE(near[0].text.find("did you mean 'cotton'"), std::string::npos) << near[0].text;
+  g.panels.panels[0].material = "cottn";
+  EXPECT_TRUE(unused_materials(scene, "scene.json", g).empty());
+}
+
+TEST(Scene, a_place_beyond_its_panel_is_refused) {
+  // It was moved to the panel's corner in silence.
+  for (const char* text : {R"({"pins": [{"panel": "a", "at": [0.5, 100]}]})",
+                           R"({"creases": [{"panel": "a", "from": [-0.2, 0], "to": [1, 1]}]})",
+                           R"({"shrink": [{"panel": "a", "to": [1, 2]}]})"})
+    EXPECT_THROW(parsed(text), Error) << text;
+  EXPECT_NO_THROW(parsed(R"({"pins": [{"panel": "a", "at": [1, 0]}]})"));
+}
+
 TEST(Closures, buttons_close_a_sheet_to_a_tube_and_cost_nothing_where_there_are_none) {
   Garment open = hung_sheet(12, 10, 0.02);
   open.scene.pins.push_back({{"sheet", Vec2(0.5, 1), Vec2(0.5, 1)}, false, Vec3::Zero(), 1e4});
@@ -95,6 +162,21 @@ TEST(Closures, buttons_close_a_sheet_to_a_tube_and_cost_nothing_where_there_are_
     EXPECT_LT((a - b).norm(), 2 * settings.self_thickness_m + 0.002) << "row " << row;
   }
   EXPECT_TRUE(with.converged);
+}
+
+TEST(Crease, goes_through_the_panel_from_edge_to_edge_and_is_refused_where_nothing_folds) {
+  // A line whose ends both lie on the outline followed it, where there is no hinge.
+  Garment g = hung_sheet(4, 4, 0.05);
+  g.scene.creases = {{{"sheet", Vec2(0.5, 0), Vec2(0.5, 1)}, 2.0, 1}};
+  g.particle_of.resize(25);
+  for (int v = 0; v < 25; ++v)
+    g.particle_of[v] = v;
+  g.position = g.panels.placed;
+  const cloth::ClothMesh mesh = cloth_mesh_of(g);
+  const std::vector<double> angles = crease_angles(mesh, g, false);
+  EXPECT_EQ(std::count_if(angles.begin(), angles.end(), [](double a) { return a != 0; }), 4);
+  g.scene.creases[0].run = {"sheet", Vec2(0, 1), Vec2(1, 1)};
+  EXPECT_THROW(crease_angles(mesh, g, false), Error);
 }
 
 TEST(RollLine, folds_a_standing_collar_over) {

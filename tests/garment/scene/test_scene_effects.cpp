@@ -3,7 +3,6 @@
 #include <support/drape_scene.hpp>
 #include <support/scratch_folder.hpp>
 
-#include <garment/kes.hpp>
 #include <garment/scene/effects.hpp>
 #include <garment/scene/panel_runs.hpp>
 #include <garment/scene/scene_effects_json.hpp>
@@ -290,55 +289,6 @@ TEST(SceneEffects, a_drape_runs_what_the_scene_asks_for_and_reports_it) {
   EXPECT_EQ(calls(blown, "edge_springs"), 0);
   EXPECT_GT(calls(still, "edge_springs"), 0);
   EXPECT_GT(calls(still, "pins"), 0);
-}
-
-TEST(Kes, one_property_per_row_in_kes_units) {
-  const test::ScratchFolder folder;
-  io::write_file(
-      (folder / "poplin.csv"),
-      "property,unit,warp,weft\nW,mg/cm2,12.1,12.1\nB,gf.cm2/cm,0.1,0.06\n2HB,gf.cm/cm,0.05,0.04\n"
-      "G,gf/cm.deg,1.2,1.0\nEMT,%,2,8\nLT,,0.8,0.7\nMIU,,0.15,0.17\nT0,mm,0.4,0.4\n");
-  const Material m = material_from((folder / "poplin.csv"));
-  EXPECT_NEAR(m.density_kg_m2, 0.121, 1e-9);
-  EXPECT_NEAR(m.bend_n_m, 0.08 * 9.80665e-5, 1e-12);
-  EXPECT_NEAR(m.shear_n_m, 1.1 * 0.980665 * 180 / M_PI, 1e-6);
-  EXPECT_NEAR(m.stretch_warp_n_m, 50 / (0.02 * std::pow(50 / 490.3325, 1 / 1.5)), 1e-6);
-  EXPECT_NEAR(m.stretch_weft_n_m, 50 / (0.08 * std::pow(50 / 490.3325, 0.7 / 1.3)), 1e-6);
-  EXPECT_NEAR(m.friction_self, 0.16, 1e-12);
-  EXPECT_NEAR(m.thickness_m, 0.0004, 1e-12);
-  EXPECT_EQ(m.source, "measured: poplin.csv");
-}
-
-TEST(Kes, one_fabric_per_row_is_picked_by_name) {
-  const test::ScratchFolder folder;
-  io::write_file(
-      (folder / "set.csv"),
-      "fabric;W [g/m2];B-1 [uN.m];B-2 [uN.m];G "
-      "[N/m];E100-1;E100-2;T0\r\nserge;210;9,5;7,5;35;2,5;5;0,6\r\ntwill;300;20;15;60;2;3;0,8\r\n");
-  const Material m = material_from((folder / "set.csv") + "#serge");
-  EXPECT_EQ(m.name, "serge");
-  EXPECT_NEAR(m.density_kg_m2, 0.21, 1e-12);
-  EXPECT_NEAR(m.bend_n_m, 8.5e-6, 1e-15);
-  EXPECT_NEAR(m.stretch_warp_n_m, 98.0665 / 0.025, 1e-6);
-  EXPECT_THROW(material_from((folder / "set.csv")), Error) << "two fabrics";
-  EXPECT_THROW(material_from((folder / "set.csv") + "#tweed"), Error);
-}
-
-TEST(Kes, what_is_wrong_is_named_with_its_line) {
-  const test::ScratchFolder folder;
-  for (const auto& [text, part] :
-       {std::pair{"property,unit,warp,weft\nW,mg/cm2,12,12\n", "B"},
-        {"property,unit,warp,weft\nW,stone,12,12\n", "line 2"},
-        {"property,unit,warp,weft\nW,mg/cm2,12,12\nB,gf.cm2/cm,much,1\n", "line 3"}}) {
-    io::write_file((folder / "bad.csv"), text);
-    try {
-      read_kes((folder / "bad.csv"));
-      FAIL() << text;
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::INPUT);
-      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
-    }
-  }
 }
 
 TEST(Materials, table1_is_the_paper_s_table_as_printed) {

@@ -32,6 +32,11 @@ struct Scene {
     ClothLayer layer;
   };
   std::vector<Interfacing> interfacing; ///< in the order of the document
+  /// A panel that the document names, for the message where the garment has none of that name.
+  struct PanelMention {
+    std::string panel, file, place; ///< name, document, JSON pointer
+  };
+  std::vector<PanelMention> mentions; ///< all of them
 };
 
 /// Reads a scene document.
@@ -40,12 +45,19 @@ Scene read_scene(const std::string& path);
 
 /// Gives the garment the scene's materials and effects; parts that the scene does not
 /// name stay unchanged.
+/// @throws Error INPUT with the scene's file and place for a panel that the garment lacks
 void apply_scene(const Scene& scene, Garment& garment);
+
+/// Materials of the scene that no panel is of, each named with those that panels are of: a warning,
+/// since a scene may serve several garments.
+/// @param path  of the scene
+std::vector<Message> unused_materials(const Scene& scene, const std::string& path,
+                                      const Garment& garment);
 
 /// Puts the scene's interfacing on its panels, once all materials are known: each of them
 /// gets a material of its own, layered() on the present one, under a name such as
 /// "cotton-poplin+fusible".
-/// @throws Error INPUT for an unknown panel
+/// @throws Error INPUT for a panel that the garment lacks
 void apply_interfacing(const Scene& scene, Garment& garment);
 
 /// The settings of a preset.
@@ -54,6 +66,9 @@ void apply_interfacing(const Scene& scene, Garment& garment);
 DrapeSettings preset_settings(const std::string& accuracy);
 /// Names of the presets from coarse to fine.
 std::vector<std::string> accuracy_names();
+
+/// Names of all knobs, in the order of report.json's `settings`.
+std::vector<std::string> knob_names();
 
 /// Sets one knob by its name in report.json's `settings`.
 /// @param value  in the unit of the name
