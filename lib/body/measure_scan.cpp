@@ -175,13 +175,12 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
         arm.axilla ? "found" : "not found");
     trail.push_back(line);
   }
-  const std::vector<Vec3> normals = vertex_normals(body.skin);
-  const FigureClass figure = classify_figure(levels, arms, normals, in.rules, trail);
+  const FigureClass figure = classify_figure(levels, arms, in.rules, trail);
   shape = shape_features(levels, arms, figure.female);
   const Situation situation{figure.female > 0.5, body.stance_class.front(), in.rebuilt};
   const Finder finder{
-      levels,         arms,  normals,   in.scan_points, in.rebuilt, crotch_moved, in.rules,
-      in.corrections, shape, situation, figure,         body,       trail,        in.s};
+      levels, arms,      in.scan_points, in.rebuilt, crotch_moved, in.rules, in.corrections,
+      shape,  situation, figure,         body,       trail,        in.s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);
