@@ -82,13 +82,26 @@ TEST(LevelStack, trunk_goes_on_in_the_neck_where_raised_shoulders_are_larger) {
 }
 
 TEST(LevelStack, crotch_that_is_as_low_behind_lies_in_front) {
-  const TriangleMesh nearly = two_lowest_places(0.0003), clearly = two_lowest_places(0.0015);
+  const TriangleMesh nearly = two_lowest_places(0.0003), clearly = two_lowest_places(0.0007);
   const LevelStack front(nearly, STATURE, 0.005), back(clearly, STATURE, 0.005);
   ASSERT_TRUE(front.crotch() && back.crotch());
   EXPECT_NEAR(*front.crotch(), 0.7997, 1e-6); // its height is the lowest all the same
-  EXPECT_NEAR(*back.crotch(), 0.7985, 1e-6);
+  EXPECT_NEAR(*back.crotch(), 0.7993, 1e-6);
   EXPECT_NEAR(front.crotch_point().y(), 0.06, 0.005);
   EXPECT_NEAR(back.crotch_point().y(), -0.1, 0.005);
+}
+
+/// Of 384 bodies 32 were warned of for a second place that was higher by a millimetre; 25 of them
+/// were right.
+TEST(LevelStack, crotch_has_another_place_only_where_half_a_millimetre_decides) {
+  auto is_told = [](double lower) {
+    const TriangleMesh skin = two_lowest_places(lower, -0.07);
+    return LevelStack(skin, STATURE, 0.005).other_crotch().has_value();
+  };
+  EXPECT_FALSE(is_told(-0.001)); // lowest in front
+  EXPECT_TRUE(is_told(0.0002));
+  EXPECT_TRUE(is_told(0.0012)); // lowest behind, where fewer crotches are
+  EXPECT_FALSE(is_told(0.002));
 }
 
 /// A lean of half a degree puts the place in front just above the height at which the legs are one:
