@@ -363,7 +363,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
       apply_rules(input, body, result.trail, &phases, result.features);
   if (!is_torso) {
     const std::vector<Finding> opinions =
-        second_opinions(body, *options.corrections, result.features, result.trail);
+        second_opinions(body, *options.corrections, result.features, skin.rebuilt, result.trail);
     body.scan.findings.insert(body.scan.findings.end(), opinions.begin(), opinions.end());
   }
   phases.done("rules");
