@@ -14,8 +14,14 @@ Box3 bounding_box(const std::vector<Vec3>& points) {
 }
 
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
+  return vertex_normals(mesh, std::vector<char>(mesh.positions.size(), 1));
+}
+
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh, const std::vector<char>& wanted) {
   std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
+    if (!wanted[t[0]] && !wanted[t[1]] && !wanted[t[2]])
+      continue;
     const Vec3* p[3] = {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]};
     Vec3 n = area_normal(*p[0], *p[1], *p[2]);
     const double length = n.norm();

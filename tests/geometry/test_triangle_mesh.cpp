@@ -25,6 +25,14 @@ TEST(TriangleMesh, has_vertex_normals_that_do_not_depend_on_how_a_cube_is_cut) {
   }
 }
 
+TEST(TriangleMesh, has_the_same_normals_where_only_some_are_asked) {
+  const TriangleMesh mesh = cube();
+  const std::vector<Vec3> all = vertex_normals(mesh);
+  const std::vector<Vec3> some = vertex_normals(mesh, {0, 0, 1, 0, 0, 1, 0, 0});
+  EXPECT_EQ(some[2], all[2]);
+  EXPECT_EQ(some[5], all[5]);
+}
+
 TEST(TriangleMesh, has_zero_normals_where_no_triangle_or_only_a_flat_one_meets) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}};

@@ -36,6 +36,9 @@ inline Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
 /// Unit vertex normals weighted by the angle at the vertex (Thuermer and Wuethrich 1998). #V by 3;
 /// zero where no triangle meets.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
+/// The same normals, bit by bit, of the vertices with wanted[v] != 0 alone; others are no unit
+/// vectors. @param wanted #V
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh, const std::vector<char>& wanted);
 
 /// Undirected edges, each once, as sorted pairs in lexicographic order.
 std::vector<std::array<int, 2>> edges_of(const std::vector<Triangle>& triangles);

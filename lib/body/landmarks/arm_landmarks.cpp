@@ -184,7 +184,7 @@ Vec3 find_shoulder(const Finder& f, int side) {
                          f.number("shoulder_joint.pit_inside");
     Vec3 joint(arm.axilla->x() - outward * slide * s, 0, by_axis.z());
     const auto top = top_of_shoulder(skin, s, joint.x(), joint.z() - 0.01 * s);
-    if (!top)
+    if (!top || top->y() < arm.axilla->y()) // beside the shoulder lies a hip, or a hand
       return std::nullopt;
     const double w = f.number("shoulder_joint.of_girdle");
     joint.y() = (1 - w) * arm.axilla->y() + w * top->y();

@@ -394,12 +394,13 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   if (weight <= 0)
     return;
   const Vec3 merge(sum.x() / weight, joined->y, sum.y() / weight);
-  if (std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s)
+  const bool hangs = arm.out.y() < HANGS;
+  if (hangs || std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s)
     arm.merge = merge;
   // of an arm that hangs both are one place; a gap that closes far outside ran into a bulge of the
   // arm
   const double outside = (arm.left ? 1 : -1) * (arm.axilla->x() - merge.x());
-  if (arm.merge && arm.out.y() < HANGS && outside > OUTSIDE_MERGE * s) {
+  if (hangs && outside > OUTSIDE_MERGE * s) {
     arm.moved_to_merge_m = (merge - *arm.axilla).norm();
     move_pit(arm, Vec3(merge.x(), merge.y(), arm.axilla->z()) - *arm.axilla);
   }

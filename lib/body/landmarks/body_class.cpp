@@ -51,8 +51,7 @@ std::optional<double> front_of(const LevelStack& levels, double y) {
 } // namespace
 
 FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms,
-                            const std::vector<Vec3>& normals, const Rules& rules,
-                            std::vector<std::string>& trail) {
+                            const Rules& rules, std::vector<std::string>& trail) {
   FigureClass figure;
   if (!levels.crotch())
     return figure;
@@ -82,13 +81,13 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
     Box3 box;
     box.low = Vec3(side == 0 ? inner : -outer, rules.number("figure.chest_low") * s, -1);
     box.high = Vec3(side == 0 ? outer : -inner, rules.number("figure.chest_high") * s, 1);
-    figure.nipple[side] = strongest_relief(skin, normals, box, radius, 1);
+    figure.nipple[side] = strongest_relief(skin, box, radius, 1);
   }
   const double navel_aside = rules.number("figure.navel_aside") * s;
   Box3 box;
   box.low = Vec3(-navel_aside, rules.number("figure.navel_low") * s, -1);
   box.high = Vec3(navel_aside, rules.number("figure.navel_high") * s, 1);
-  figure.navel = strongest_relief(skin, normals, box, radius, -1);
+  figure.navel = strongest_relief(skin, box, radius, -1);
   const double to_usual_stature = rules.number("figure.usual_stature") / s;
   for (auto* relief : {&figure.nipple[0], &figure.nipple[1], &figure.navel})
     if (*relief)

@@ -20,8 +20,7 @@ struct FigureClass {
 };
 
 FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms,
-                            const std::vector<Vec3>& normals, const Rules& rules,
-                            std::vector<std::string>& trail);
+                            const Rules& rules, std::vector<std::string>& trail);
 
 /// How the program finds something, under the name that the tree calls it by.
 template<class T> struct LandmarkRule {
@@ -39,7 +38,6 @@ template<class T> struct Chosen {
 struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;
-  const std::vector<Vec3>& normals;     ///< of the skin's vertices
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body
   bool rebuilt;      ///< the skin is not the scan's own and has lost its finest ends
   bool crotch_moved; ///< the crotch is an estimate

@@ -1,9 +1,56 @@
 #include <sloper/body/measure/geodesic.hpp>
 
 #include <algorithm>
-#include <queue>
 
 namespace sloper::body {
+
+namespace {
+
+/// The nearest first. Four children to a node: half as many levels as of a binary heap, each in one
+/// or two lines of the cache.
+class Nearest {
+public:
+  struct Item {
+    double distance;
+    int vertex;
+  };
+  bool empty() const { return m_items.empty(); }
+  void push(const Item& item) {
+    std::size_t at = m_items.size();
+    m_items.push_back(item);
+    while (at > 0 && item.distance < m_items[(at - 1) / CHILDREN].distance) {
+      m_items[at] = m_items[(at - 1) / CHILDREN];
+      at = (at - 1) / CHILDREN;
+    }
+    m_items[at] = item;
+  }
+  Item pop() {
+    const Item first = m_items.front(), last = m_items.back();
+    m_items.pop_back();
+    const std::size_t n = m_items.size();
+    std::size_t at = 0;
+    while (CHILDREN * at + 1 < n) {
+      const std::size_t begin = CHILDREN * at + 1, end = std::min(begin + CHILDREN, n);
+      std::size_t least = begin;
+      for (std::size_t child = begin + 1; child < end; ++child)
+        if (m_items[child].distance < m_items[least].distance)
+          least = child;
+      if (last.distance <= m_items[least].distance)
+        break;
+      m_items[at] = m_items[least];
+      at = least;
+    }
+    if (n > 0)
+      m_items[at] = last;
+    return first;
+  }
+
+private:
+  static constexpr std::size_t CHILDREN = 4;
+  std::vector<Item> m_items;
+};
+
+} // namespace
 
 EdgeGraph::EdgeGraph(const TriangleMesh& mesh)
     : m_mesh(&mesh), m_first(mesh.positions.size() + 1, 0) {
@@ -29,15 +76,13 @@ EdgeGraph::EdgeGraph(const TriangleMesh& mesh)
 std::vector<double> EdgeGraph::distances(const std::vector<int>& sources, double limit,
                                          const std::vector<char>& blocked) const {
   std::vector<double> distance(m_mesh->positions.size(), 1e300);
-  using Item = std::pair<double, int>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+  Nearest queue; // which of two that are as far comes first changes no distance
   for (int s : sources) {
     distance[s] = 0;
-    queue.emplace(0.0, s);
+    queue.push({0.0, s});
   }
   while (!queue.empty()) {
-    const auto [d, v] = queue.top();
-    queue.pop();
+    const auto [d, v] = queue.pop();
     if (d > distance[v])
       continue;
     for (int i = m_first[v]; i < m_first[v + 1]; ++i) {
@@ -47,7 +92,7 @@ std::vector<double> EdgeGraph::distances(const std::vector<int>& sources, double
       const double next = d + (m_mesh->positions[w] - m_mesh->positions[v]).norm();
       if (next < distance[w] && next <= limit) {
         distance[w] = next;
-        queue.emplace(next, w);
+        queue.push({next, w});
       }
     }
   }

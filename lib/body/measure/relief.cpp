@@ -3,10 +3,16 @@
 
 namespace sloper::body {
 
-std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
-                                            const std::vector<Vec3>& normals, const Box3& box,
+std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const Box3& box,
                                             double radius, double sign) {
   const Vec3 margin = Vec3::Constant(radius);
+  std::vector<char> is_near(skin.positions.size(), 0);
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    const Vec3& p = skin.positions[v];
+    is_near[v] =
+        (p - box.low + margin).minCoeff() >= 0 && (box.high + margin - p).minCoeff() >= 0 ? 1 : 0;
+  }
+  const std::vector<Vec3> normals = vertex_normals(skin, is_near);
   std::vector<double> of_vertex(
       skin.positions.size(), 0); // areas, so that it does not matter how finely the skin is meshed
   for (const Triangle& t : skin.triangles) {
@@ -21,8 +27,7 @@ std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
   std::vector<double> area;
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     const Vec3& p = skin.positions[v];
-    if (normals[v].z() < 0.2 || (p - box.low + margin).minCoeff() < 0 ||
-        (box.high + margin - p).minCoeff() < 0)
+    if (!is_near[v] || normals[v].z() < 0.2)
       continue;
     points.push_back(p);
     normal.push_back(normals[v]);

@@ -14,8 +14,7 @@ struct ReliefPoint {
 /// Where the skin inside `box` with normals facing +z stands out most (sign +1) or lies deepest
 /// (sign -1) against the ring of skin between 0.55 and 1 `radius` around it. The place is the
 /// middle of what reaches 0.7 of the most, weighted by what it has beyond that.
-std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
-                                            const std::vector<Vec3>& normals, const Box3& box,
+std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const Box3& box,
                                             double radius, double sign);
 
 } // namespace sloper::body

@@ -180,7 +180,7 @@ const std::vector<int>& TriangleSpheres::near(const Plane& plane) {
 }
 
 LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int count)
-    : m_bands(static_cast<std::size_t>(count)) {
+    : m_first(static_cast<std::size_t>(count) + 2, 0) {
   constexpr float OUTWARDS = 1e-6f; // m: more than what a float rounds at the height of a person
   auto band_of = [&](double y) {
     return std::clamp(static_cast<int>(std::floor((y - y0) / dy)), 0, count - 1);
@@ -196,18 +196,33 @@ LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int c
     m_vertices[at] = {mesh.positions[v], static_cast<int>(v)};
     place[v] = static_cast<int>(at);
   }
+  struct Bands {
+    float low, high; // m, outwards
+    int from, to;
+  };
+  std::vector<Bands> bands;
+  bands.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     const double a = mesh.positions[t[0]].y(), b = mesh.positions[t[1]].y(),
                  c = mesh.positions[t[2]].y();
     const double low = std::min({a, b, c}), high = std::max({a, b, c});
     const int from = std::max(0, static_cast<int>(std::floor((low - y0) / dy)));
     const int to = std::min(count - 1, static_cast<int>(std::ceil((high - y0) / dy)));
-    const Reach reach{static_cast<float>(low) - OUTWARDS,
-                      static_cast<float>(high) + OUTWARDS,
-                      {place[t[0]], place[t[1]], place[t[2]]}};
+    bands.push_back(
+        {static_cast<float>(low) - OUTWARDS, static_cast<float>(high) + OUTWARDS, from, to});
     for (int k = from; k <= to; ++k)
-      m_bands[k].push_back(reach);
+      ++m_first[static_cast<std::size_t>(k) + 2];
   }
+  std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
+  m_reaches.resize(m_first.back());
+  // a band's first place is counted on in the entry after it, which then is the next one's first
+  for (std::size_t f = 0; f < bands.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    for (int k = bands[f].from; k <= bands[f].to; ++k)
+      m_reaches[m_first[static_cast<std::size_t>(k) + 1]++] = {
+          bands[f].low, bands[f].high, {place[t[0]], place[t[1]], place[t[2]]}};
+  }
+  m_first.pop_back();
 }
 
 std::vector<Loop> LevelledMesh::cut(int band, double y) const {
@@ -217,7 +232,8 @@ std::vector<Loop> LevelledMesh::cut(int band, double y) const {
   const float level = static_cast<float>(y);
   std::vector<Cut> cuts;
   cuts.reserve(512);
-  for (const Reach& r : m_bands[band]) {
+  for (std::size_t i = m_first[band]; i < m_first[static_cast<std::size_t>(band) + 1]; ++i) {
+    const Reach& r = m_reaches[i];
     if (r.low > level || r.high < level)
       continue;
     const Vertex &a = m_vertices[r.vertices[0]], &b = m_vertices[r.vertices[1]],

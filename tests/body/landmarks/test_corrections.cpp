@@ -84,12 +84,23 @@ TEST(SecondOpinion, names_what_the_rest_of_the_body_contradicts) {
   std::vector<std::string> trail;
   for (const double off : {0.0, 0.02, 0.06}) { // a deviation is 1 cm: 0, 2 and 6 of them
     body.landmarks["knee_l"] = {Vec3(0, 0.57 + off, 0), 2, "leg_ratio", 0.6, 0.01, {}};
-    const auto doubts = second_opinions(body, learned, shape(0.5), trail);
+    const auto doubts = second_opinions(body, learned, shape(0.5), false, trail);
     EXPECT_EQ(doubts.size(), off > 0.05 ? 1u : 0u) << off;
     EXPECT_LE(body.landmarks["knee_l"].confidence, 0.6);
     EXPECT_GE(body.landmarks["knee_l"].confidence, 0.17);
   }
   EXPECT_EQ(trail.size(), 3u);
-  EXPECT_TRUE(second_opinions(body, learned, shape(5), trail).empty()); // another kind of body
+  EXPECT_TRUE(
+      second_opinions(body, learned, shape(5), false, trail).empty()); // another kind of body
   EXPECT_EQ(trail.size(), 3u);
+}
+
+TEST(SecondOpinion, names_more_on_a_skin_that_was_rebuilt) {
+  const Corrections learned = Corrections::parse(document(""), "test");
+  Body body;
+  body.scan.stature_m = 2;
+  std::vector<std::string> trail;
+  body.landmarks["knee_l"] = {Vec3(0, 0.57 + 0.035, 0), 2, "leg_ratio", 0.6, 0.01, {}};
+  EXPECT_EQ(second_opinions(body, learned, shape(0.5), false, trail).size(), 0u);
+  EXPECT_EQ(second_opinions(body, learned, shape(0.5), true, trail).size(), 1u);
 }

@@ -97,3 +97,21 @@ TEST(ArmPit, of_a_level_arm_is_where_its_nearest_piece_joins_the_trunk) {
   ASSERT_TRUE(after.has_landmark("axilla_merge_l"));
   EXPECT_NEAR(after.landmark("axilla_merge_l").x(), after.landmark("axilla_l").x(), 0.035 * s);
 }
+
+/// A gap may end at a bulge of the arm far outside of the pit: of 244 fresh bodies one had its pit
+/// 10 cm outside, the shoulder joint at the hip and no merge.
+TEST(ArmPit, of_a_hanging_arm_is_where_level_sections_join_however_far_out_the_gap_ends) {
+  const Body body = test::measure(test::mannequin("m-178-a").mesh).body;
+  const double s = body.scan.stature_m;
+  const LevelStack levels(body.skin, s, 0.0025 * s);
+  ArmTrace arm = trace_arms(levels, EdgeGraph(body.skin), {}, Rules::standard())[0];
+  ASSERT_TRUE(arm.axilla && arm.merge);
+  const Vec3 pit = *arm.axilla, merge = *arm.merge;
+  *arm.axilla += Vec3(0.07 * s, 0, 0);
+  arm.merge.reset();
+  find_merge(arm, levels);
+  ASSERT_TRUE(arm.merge);
+  EXPECT_LT((*arm.merge - merge).norm(), 1e-9);
+  EXPECT_LT((*arm.axilla - pit).norm(), 0.02);
+  EXPECT_GT(arm.moved_to_merge_m, 0.1);
+}

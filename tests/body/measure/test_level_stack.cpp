@@ -82,23 +82,49 @@ TEST(LevelStack, trunk_goes_on_in_the_neck_where_raised_shoulders_are_larger) {
 }
 
 TEST(LevelStack, crotch_that_is_as_low_behind_lies_in_front) {
-  const TriangleMesh nearly = two_lowest_places(0.0003), clearly = two_lowest_places(0.0015);
+  const TriangleMesh nearly = two_lowest_places(0.0001), clearly = two_lowest_places(0.0007);
   const LevelStack front(nearly, STATURE, 0.005), back(clearly, STATURE, 0.005);
   ASSERT_TRUE(front.crotch() && back.crotch());
-  EXPECT_NEAR(*front.crotch(), 0.7997, 1e-6); // its height is the lowest all the same
-  EXPECT_NEAR(*back.crotch(), 0.7985, 1e-6);
+  EXPECT_NEAR(*front.crotch(), 0.7999, 1e-6); // its height is the lowest all the same
+  EXPECT_NEAR(*back.crotch(), 0.7993, 1e-6);
   EXPECT_NEAR(front.crotch_point().y(), 0.06, 0.005);
   EXPECT_NEAR(back.crotch_point().y(), -0.1, 0.005);
 }
 
-/// A lean of half a degree puts the place in front just above the height at which the legs are one:
-/// one of twelve bodies had its crotch 132 mm too far back.
+/// Which place is the lower one is a matter of the vertical: of 444 bodies nine, whose own one was
+/// half a degree from the scanner's, had the crotch 40 to 120 mm too far forward or back.
+TEST(LevelStack, crotch_that_is_lowest_twice_is_the_lower_one_by_the_vertical) {
+  const TriangleMesh behind = two_lowest_places(0.0007);
+  const LevelStack leaning(behind, STATURE, 0.005, 0, Vec3(0, 1, -0.007).normalized());
+  ASSERT_TRUE(leaning.crotch());
+  EXPECT_NEAR(leaning.crotch_point().y(), 0.06, 0.005);
+  const TriangleMesh before = two_lowest_places(-0.0007);
+  const LevelStack back(before, STATURE, 0.005, 0, Vec3(0, 1, 0.007).normalized());
+  ASSERT_TRUE(back.crotch());
+  EXPECT_NEAR(back.crotch_point().y(), -0.1, 0.005);
+}
+
+/// Of 384 bodies 32 were warned of for a second place that was higher by a millimetre; 25 of them
+/// were right.
+TEST(LevelStack, crotch_has_another_place_only_where_half_a_millimetre_decides) {
+  auto is_told = [](double lower) {
+    const TriangleMesh skin = two_lowest_places(lower, -0.07);
+    return LevelStack(skin, STATURE, 0.005).other_crotch().has_value();
+  };
+  EXPECT_FALSE(is_told(-0.001)); // lowest in front
+  EXPECT_TRUE(is_told(0));
+  EXPECT_TRUE(is_told(0.0004));
+  EXPECT_FALSE(is_told(0.0012));
+}
+
+/// The place in front may lie just above the height at which the legs are one: one of twelve bodies
+/// had its crotch 132 mm too far back.
 TEST(LevelStack, crotch_in_front_may_lie_just_above_where_the_legs_become_one) {
-  constexpr double MERGED = 0.7998; // below the place in front (0.8), above the one behind (0.7997)
-  const TriangleMesh skin = two_lowest_places(0.0003, -0.05, MERGED);
+  constexpr double MERGED = 0.79995; // below the place in front (0.8), above that behind (0.7999)
+  const TriangleMesh skin = two_lowest_places(0.0001, -0.05, MERGED);
   const LevelStack levels(skin, STATURE, 0.005);
   ASSERT_TRUE(levels.crotch());
-  EXPECT_NEAR(*levels.crotch(), 0.7997, 1e-4); // where the legs become one is bisected
+  EXPECT_NEAR(*levels.crotch(), 0.7999, 1e-4); // where the legs become one is bisected
   EXPECT_NEAR(levels.crotch_point().y(), 0.06, 0.005);
 }
 

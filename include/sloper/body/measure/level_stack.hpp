@@ -28,7 +28,10 @@ public:
   /// @param spacing  m between levels
   /// @param roughness  m by which heights of a rebuilt skin are uncertain; 0 for a scan's
   /// own faces
-  LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness = 0);
+  /// @param up unit vector within a few degrees of +y, the vertical by which the lower of two ends
+  /// of a crotch is told
+  LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness = 0,
+             const Vec3& up = Vec3::UnitY());
   /// Slices from the soles upwards.
   const std::vector<Slice>& slices() const { return m_slices; }
   /// The slice whose band holds height y, m, and its index in slices(); clamped to the
@@ -77,6 +80,7 @@ private:
   int trunk_of(const std::vector<Loop>& loops, const Loop& from) const;
   const TriangleMesh* m_skin;
   double m_stature, m_spacing, m_roughness;
+  double m_rise; ///< of what is level by `up`, per length backwards
   std::vector<Slice> m_slices;
   LevelledMesh m_levelled;
   /// Cuts made before: several rules ask for the same heights.

@@ -86,8 +86,9 @@ private:
     float low, high; ///< m, rounded outwards
     Triangle vertices;
   };
-  std::vector<Vertex> m_vertices;          ///< by height
-  std::vector<std::vector<Reach>> m_bands; ///< what each may meet, in mesh order
+  std::vector<Vertex> m_vertices;   ///< by height
+  std::vector<Reach> m_reaches;     ///< band by band what it may meet, in mesh order
+  std::vector<std::size_t> m_first; ///< of each band in m_reaches, and their number
 };
 
 /// Convex hull, counter-clockwise, without its collinear points.
