@@ -16,10 +16,10 @@ constexpr double ASKED = 0.5;          // of pairs that are sewn for the sake of
 constexpr double WORST_EXCHANGE = -7;  // of both pairs that are exchanged, by themselves
 constexpr double DEAREST_EXCHANGE = 3; // by which two pairs may be worse that leave fewer handles
 constexpr double WORST_JOIN = -5.5;    // the mean of the pairs along two rims
-constexpr double LEAST = -9;           // what one pair can take from that mean
+constexpr double LOWEST_IN_MEAN = -9;  // what one pair can take from that mean
 constexpr double DEAREST_MERGE = 1.5;  // by which two pairs may be worse that leave fewer rims
 constexpr double LEAST_SLIT = 0;       // of two sides that follow one another on a rim
-constexpr double SAME_LENGTH = 0.01;   // logarithm: the two sides of a slit
+constexpr double SLIT_SIDES = 0.01;    // logarithm: the two sides of a slit
 constexpr std::size_t FEWEST_RIMS = 2; // of a garment: it has to be put on
 constexpr std::size_t MOST_SIDES = 24; // of a rim that is tried
 constexpr double SLIVER = 0.015;       // m around
@@ -204,7 +204,7 @@ private:
           for (std::size_t k = 0; k < n; ++k) {
             const int i = open[a][k], j = open[b][(turn + n - k) % n];
             possible = possible && base(i, j) > SeamWitness::IMPOSSIBLE;
-            sum += std::max(base(i, j), LEAST);
+            sum += std::max(base(i, j), LOWEST_IN_MEAN);
             pairs.push_back(ordered(i, j));
           }
           if (!possible)
@@ -236,7 +236,7 @@ private:
     for (const std::vector<int>& rim : sewn().rims())
       for (std::size_t k = 0; k < rim.size() && rim.size() > 1; ++k) {
         const int i = rim[k], j = rim[(k + 1) % rim.size()];
-        if (std::abs(std::log(m_sides[i].length / m_sides[j].length)) > SAME_LENGTH)
+        if (std::abs(std::log(m_sides[i].length / m_sides[j].length)) > SLIT_SIDES)
           continue;
         const double odds = base(std::min(i, j), std::max(i, j));
         if (odds > most) {
