@@ -13,6 +13,7 @@ namespace {
 // from -6.5 to -5, DEAREST_MERGE from 0.7 to 3 and LEAST_SLIT from 0 to 1. Of 120 fresh designs 36
 // were wholly right without them and 46 are with them.
 constexpr double ASKED = 0.5;          // of pairs that are sewn for the sake of the whole
+constexpr double TWINS = 1.2;          // of two that are exchanged between the same two panels
 constexpr double WORST_EXCHANGE = -7;  // of both pairs that are exchanged, by themselves
 constexpr double DEAREST_EXCHANGE = 3; // by which two pairs may be worse that leave fewer handles
 constexpr double WORST_JOIN = -5.5;    // the mean of the pairs along two rims
@@ -119,7 +120,16 @@ private:
     std::vector<Sewn> out = m_pairs;
     out[x] = {first, std::min(ASKED, m_pairs[x].odds)};
     out[y] = {second, std::min(ASKED, m_pairs[y].odds)};
+    if (same_panels(x, y)) // their order along the outlines decides (settle_by_order())
+      out[x].odds = out[y].odds = TWINS;
     return out;
+  }
+
+  bool same_panels(std::size_t x, std::size_t y) const {
+    const auto panels = [&](const Sewn& s) {
+      return ordered(m_sides[s.pair[0]].panel, m_sides[s.pair[1]].panel);
+    };
+    return panels(m_pairs[x]) == panels(m_pairs[y]);
   }
 
   static int count_rims(const OpenRims& rims) {
