@@ -66,6 +66,21 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
   return job;
 }
 
+/// What pattern-mesh found too short for the body that the panels were placed around.
+std::vector<Message> tight_rings(const garment::Garment& garment) {
+  std::vector<Message> out;
+  for (const Message& finding : garment.panels.findings)
+    if (finding.id == "placement.too-tight"_id.text())
+      out.push_back(finding);
+  return out;
+}
+
+/// What may be the reason, for the end of a sentence.
+std::string why_not(const garment::Garment& garment) {
+  const std::vector<Message> tight = tight_rings(garment);
+  return tight.empty() ? "" : "; it was too small from the start: " + tight.front().text;
+}
+
 /// Writes all that is asked for; the exit code.
 int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
               std::vector<garment::Garment>& under, const body::Body& body,
@@ -107,7 +122,7 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
   tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
                                                        " after " + std::to_string(report.steps) +
                                                        " steps; the state reached is in " +
-                                                       o.output});
+                                                       o.output + why_not(garment)});
   return static_cast<int>(ErrorKind::FAILED);
 }
 
@@ -243,6 +258,8 @@ int run(cli::Tool& tool, Options& o) {
     garment.body_sha256 = skin;
     inputs.push_back(garment::input_entry(o.body));
   }
+  for (const Message& finding : tight_rings(garment))
+    findings.push_back(finding);
   for (const Message& finding : findings)
     tool.reporter().warning(finding);
   if (!o.motion.empty())

@@ -207,6 +207,10 @@ int run(cli::Tool& tool, const Options& o) {
                std::to_string(r.faces_through) + " faces go through its skin"});
     if (r.is_guess)
       tool.reporter().warning(mesh.findings.back());
+    for (const std::string& fact : r.too_tight) {
+      mesh.findings.push_back({"placement.too-tight"_id, fact});
+      tool.reporter().warning(mesh.findings.back());
+    }
     impossible = r.impossible;
     for (const std::string& fact : impossible)
       mesh.findings.push_back({"placement.impossible"_id, fact});

@@ -1,6 +1,7 @@
 #include <pattern/layout/leg_layout.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/place/placer.hpp>
+#include <pattern/place/tight_rings.hpp>
 #include <pattern/roles/leg_roles.hpp>
 #include <pattern/roles/panel_roles.hpp>
 #include <sloper/collision/intersections.hpp>
@@ -46,6 +47,7 @@ PlacementReport Placer::run() {
         m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
   measure_gaps(report);
   find_impossible(report);
+  report.too_tight = tight_rings(m_pattern, m_mesh, m_space);
   const int unclassified = find_unclassified();
   report.is_guess =
       m_roles.size() > 1 &&

@@ -2,6 +2,7 @@
 #include <pattern/seams/rim_seams.hpp>
 #include <pattern/seams/seam_assembly.hpp>
 #include <pattern/seams/seam_order.hpp>
+#include <pattern/seams/whole_garment.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/geometry/disjoint_sets.hpp>
 #include <sloper/io/json.hpp>
@@ -127,7 +128,8 @@ public:
   Inference(const Pattern& pattern, const SideCorners& corners)
       : m_pattern(pattern), m_sides(seam_sides(pattern, corners, SHORTEST)),
         m_witness(pattern, m_sides), m_assembly(m_witness, NamesSay(pattern, m_sides).all()) {
-    m_result = m_assembly.run(seam_model());
+    m_result =
+        as_one_garment(pattern, m_sides, m_assembly.run(seam_model()), CERTAIN, WORTH_ASKING);
   }
 
   std::vector<SeamGuess> guesses() const {
@@ -197,8 +199,11 @@ private:
   /// that is asked along with it, whether the assembly came upon it or not.
   void add_missing_twins(std::vector<SeamGuess>& out, std::vector<SidePair>& taken) const {
     std::vector<char> in_use(m_sides.size(), 0);
-    for (const SidePair& pair : taken)
+    OpenRims rims(m_pattern, m_sides);
+    for (const SidePair& pair : taken) {
       in_use[index(pair[0])] = in_use[index(pair[1])] = 1;
+      rims.sew(pair[0], pair[1]);
+    }
     const std::size_t found = taken.size();
     for (std::size_t k = 0; k < found; ++k) {
       const auto twins = m_witness.twins(index(taken[k][0]), index(taken[k][1]));
@@ -209,9 +214,11 @@ private:
         continue;
       for (const SidePair& twin : twins) {
         const double odds = m_result.base[index(twin[0]) * m_sides.size() + index(twin[1])];
-        if (in_use[index(twin[0])] || in_use[index(twin[1])] || odds < WORTH_A_WORD)
+        if (in_use[index(twin[0])] || in_use[index(twin[1])] || odds < WORTH_A_WORD ||
+            rims.makes_handle(twin[0], twin[1]))
           continue;
         in_use[index(twin[0])] = in_use[index(twin[1])] = 1;
+        rims.sew(twin[0], twin[1]);
         out.push_back(guess_of(twin, odds));
         out.back().score = out[k].score;
         taken.push_back(twin);
@@ -286,7 +293,9 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
     settle_by_order(pattern, guesses);
     const std::vector<Seam> continued = continue_seams(pattern, guesses);
     drop_bags(pattern, guesses, continued);
-    return with_rim_seams(pattern, std::move(guesses));
+    guesses = with_rim_seams(pattern, std::move(guesses));
+    close_slivers(pattern, guesses);
+    return guesses;
   };
   std::vector<SeamGuess> by_edges = completed(edges.guesses());
   if (sharp == all)

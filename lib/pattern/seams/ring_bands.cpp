@@ -9,10 +9,10 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double SLIM = 3; // length over width of a piece of a band
-constexpr double SHORTEST_BAND = 0.75, LONGEST_BAND = 1.15; // of the rim's length: no rib
+constexpr double SLIM_PIECE = 3; // length over width of a piece of a band
+constexpr double SHORTEST_RING = 0.75, LONGEST_RING = 1.15; // of the rim's length: no rib
 constexpr double MIRRORED = 0.03;                           // logarithm of lengths
-constexpr double BAND_SCORE = 0.8;
+constexpr double RING_SCORE = 0.8;
 
 bool is_slim(const Panel& panel) {
   std::vector<Path> outline;
@@ -21,8 +21,8 @@ bool is_slim(const Panel& panel) {
     outline.push_back(edge.path);
     around += length(edge.path);
   }
-  // Of a rectangle whose sides are as SLIM to 1.
-  constexpr double MOST_AREA = SLIM / (4 * (SLIM + 1) * (SLIM + 1));
+  // Of a rectangle whose sides are as SLIM_PIECE to 1.
+  constexpr double MOST_AREA = SLIM_PIECE / (4 * (SLIM_PIECE + 1) * (SLIM_PIECE + 1));
   return std::abs(signed_area(outline)) < MOST_AREA * around * around;
 }
 
@@ -98,7 +98,7 @@ std::vector<SeamGuess> with_ring_bands(const Pattern& pattern, std::vector<SeamG
   const Rim* fits = nullptr;
   for (const Rim& rim : others) {
     const double share = ring.length / rim.length;
-    if (share < SHORTEST_BAND || share > LONGEST_BAND)
+    if (share < SHORTEST_RING || share > LONGEST_RING)
       continue;
     if (fits)
       return given; // which of them is not told
@@ -117,7 +117,7 @@ std::vector<SeamGuess> with_ring_bands(const Pattern& pattern, std::vector<SeamG
   seam.b = turned(stretch(*around, 0, length_of(*around)));
   // What closes the ring and what sets it on are one answer.
   const int last = std::ssize(guesses);
-  guesses.push_back(rim_guess(std::move(seam), false, BAND_SCORE));
+  guesses.push_back(rim_guess(std::move(seam), false, RING_SCORE));
   int first = -1;
   for (int k = 0; k < last; ++k) {
     SeamGuess& g = guesses[k];

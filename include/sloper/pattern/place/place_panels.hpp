@@ -19,6 +19,9 @@ struct PlacementReport {
   /// Places that cannot be intended, as sentences: a panel below the floor or above the
   /// head, a seam a metre open.
   std::vector<std::string> impossible;
+  /// Rings of cloth, such as cuffs and waistbands, that start around a limb or the trunk of more
+  /// than 1.15 times their length, as sentences.
+  std::vector<std::string> too_tight;
   /// No panel could be classified: all are placed as fronts, and the last finding says
   /// so.
   bool is_guess = false;
