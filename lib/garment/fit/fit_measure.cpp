@@ -230,9 +230,15 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
   std::vector<SectionChain> chains = cut_garment(garment, use, center, place.normal, elsewhere);
   why = chains.empty() ? "the garment does not reach it" : "the garment does not go round it";
   const SectionChain* best = nullptr;
+  bool is_divided = false;
   for (const SectionChain& chain : chains) {
     if (chain.turns(center, place.normal) < AROUND)
       continue;
+    if (std::any_of(place.inside.begin(), place.inside.end(),
+                    [&](const Vec3& axis) { return chain.turns(axis, place.normal) < AROUND; })) {
+      is_divided = true;
+      continue;
+    }
     const bool both = std::any_of(place.outside.begin(), place.outside.end(), [&](const Vec3& o) {
       return chain.turns(o, place.normal) > AROUND;
     });
@@ -253,7 +259,9 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
     line.chains.push_back(*best);
     return line;
   }
-  if (place.kind != "level")
+  if (is_divided)
+    why = "the cloth divides into legs there";
+  if (place.kind != "level" || is_divided)
     return std::nullopt;
   return assemble_line(std::move(chains), center, place.normal, LARGEST_OPEN);
 }

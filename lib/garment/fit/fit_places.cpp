@@ -105,6 +105,27 @@ double level_girth_spread(const body::Body& body, const FitPlace& place, TrunkGi
   return std::hypot(std::max(LEAST_GIRTH_SPREAD, level.girth_spread_m), change);
 }
 
+/// Where the axis of a leg passes a height, above or below the leg too.
+std::optional<Vec3> leg_point(const body::Body& body, const std::string& side, double y) {
+  const auto frame = body.frames.find("leg_" + side);
+  if (frame == body.frames.end())
+    return std::nullopt;
+  const PartFrame& f = frame->second.frame;
+  return Vec3(f.lower + (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
+}
+
+/// The axes of both legs at a height that they reach: a line of cloth around one of them alone is
+/// that of a leg.
+std::vector<Vec3> legs_at(const body::Body& body, double y) {
+  std::vector<Vec3> axes;
+  for (const std::string side : {"l", "r"}) {
+    const auto frame = body.frames.find("leg_" + side);
+    if (frame != body.frames.end() && y < frame->second.frame.upper.y())
+      axes.push_back(*leg_point(body, side, y));
+  }
+  return axes;
+}
+
 void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
   const auto torso = body.frames.find("torso");
   TrunkGirth girth(body);
@@ -120,6 +141,7 @@ void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
                                                                        (f.upper.y() - f.lower.y()));
       place.center.y() = level.y;
     }
+    place.inside = legs_at(body, level.y);
     place.body_spread_m = level_girth_spread(body, place, girth);
     places.push_back(place);
   }
@@ -220,16 +242,8 @@ std::vector<FitPlace> fit_places(const body::Body& body) {
     if (has("wrist") && has("elbow"))
       add("wrist", at("wrist"), (at("elbow") - at("wrist")).normalized(), arm, {});
     // Legs are cut level, as the body's are; their cloth hangs on a leg or on the torso above it.
-    const auto leg_point = [&](const std::string& s, double y) -> std::optional<Vec3> {
-      const auto frame = body.frames.find("leg_" + s);
-      if (frame == body.frames.end())
-        return std::nullopt;
-      const PartFrame& f = frame->second.frame;
-      return Vec3(f.lower +
-                  (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
-    };
     const auto add_leg = [&](const std::string& name, double y) {
-      const auto here = leg_point(side, y), there = leg_point(other, y);
+      const auto here = leg_point(body, side, y), there = leg_point(body, other, y);
       if (here)
         add(name, *here, Vec3::UnitY(), {},
             there ? std::vector<Vec3>{*there} : std::vector<Vec3>{});

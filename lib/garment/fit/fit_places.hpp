@@ -15,7 +15,8 @@ struct FitPlace {
   double body_m = 0, body_spread_m = 0, height_error_m = 0;
   std::vector<std::string>
       frames; ///< cloth whose weight is mostly on these; empty: all that is not mostly on the arms
-  std::vector<Vec3> outside; ///< axes that the line must not go round
+  std::vector<Vec3> outside;     ///< axes that the line must not go round
+  std::vector<Vec3> inside = {}; ///< axes that it must go round besides the centre's
 };
 
 /// Trunk levels are cut level, limbs square to the limb, legs level, the neck base through its four

@@ -168,6 +168,29 @@ TEST(fit, trousers_are_measured_down_to_their_hems) {
     EXPECT_TRUE(row(d.report, name)) << name;
 }
 
+TEST(fit, a_level_at_which_trousers_divide_is_no_girth_of_one_leg) {
+  body::Body body = measured("f-165-a");
+  Garment trousers = skin_trousers(body, 0.01);
+  for (Vec3& p : trousers.position)
+    p.x() += 0.05; // as askew as cloth hangs: one leg goes round the middle of the body
+  body::Level& crotch = body.levels.at("crotch");
+  crotch.y_spread_m = 0.01;
+  const double found = crotch.y;
+  int n_divided = 0, n_measured = 0;
+  for (int mm = -30; mm <= 30; mm += 6) {
+    crotch.y = found + 0.001 * mm;
+    const Dressed d = dressed(body, trousers);
+    n_divided += left_out(d.report, "crotch") == "crotch: the cloth divides into legs there";
+    if (const FitRow* girth = row(d.report, "crotch")) {
+      ++n_measured;
+      EXPECT_GT(girth->rest_m, 0.8 * girth->body_m) << mm;
+      EXPECT_LT(girth->garment_uncertainty_m, 0.2 * girth->rest_m) << mm;
+    }
+  }
+  EXPECT_GT(n_divided, 2);
+  EXPECT_GT(n_measured, 2);
+}
+
 TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
   const body::Body body = measured("f-165-a");
   Garment g = skin_shirt(body, 0.02);
