@@ -144,11 +144,17 @@ LimbInside limb_in(const RingPlane& plane, const std::vector<Vec2>& ring, const 
   return limbs == 1 ? found : LimbInside{};
 }
 
+/// Where a ring no longer goes round the waist: above it are necklines.
+double top_of_waist(const BodySpace& space) {
+  constexpr double UNDERBUST = 0.66; // of the stature
+  return space.level("underbust", UNDERBUST);
+}
+
 /// Between hips and bust: what goes round the trunk slides to where it is narrow.
 LimbInside narrowest_trunk(const BodySpace& space) {
-  constexpr double STEP = 0.01, HIP = 0.51, UNDERBUST = 0.66; // m, of the stature
+  constexpr double STEP = 0.01, HIP = 0.51; // m, of the stature
   LimbInside found{0, "waist"};
-  const double high = space.level("underbust", UNDERBUST);
+  const double high = top_of_waist(space);
   for (double y = space.level("hip", HIP); y < high; y += STEP)
     if (const double girth = space.girth(y); girth > 0 && (found.girth <= 0 || girth < found.girth))
       found.girth = girth;
@@ -221,7 +227,8 @@ std::vector<std::string> tight_rings(const Pattern& pattern, const PanelMesh& me
       outline.push_back(plane.at(p));
     const std::string& part = mesh.panels[ring.edges[0][0]].part;
     LimbInside inside = limb_in(plane, outline, space);
-    if (part == "torso" && std::abs(plane.normal.y()) > LEVEL_RING && inside.girth <= 0)
+    if (part == "torso" && std::abs(plane.normal.y()) > LEVEL_RING && inside.girth <= 0 &&
+        plane.middle.y() < top_of_waist(space))
       inside = narrowest_trunk(space);
     const double stretch = inside.girth / ring.length - 1;
     if (!(stretch > MOST_RING_STRETCH))

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double RADIUS = 0.07; // m, of a leg that is a cylinder
 
-/// A left leg alone, 1 m high.
-body::Body leg() {
+/// A cylinder alone, `height` m high: a left leg or a trunk.
+body::Body column(body::Part part, double height) {
   constexpr int AROUND = 48;
   body::Body body;
   for (int k = 0; k < AROUND; ++k)
-    for (const double y : {0.0, 1.0}) {
+    for (const double y : {0.0, height}) {
       const double angle = 2 * units::PI * k / AROUND;
       body.skin.positions.push_back({RADIUS * std::sin(angle), y, RADIUS * std::cos(angle)});
     }
@@ -25,7 +25,7 @@ body::Body leg() {
     body.skin.triangles.push_back({a, b, b + 1});
     body.skin.triangles.push_back({a, b + 1, a + 1});
   }
-  body.face_part.assign(body.skin.triangles.size(), body::Part::LEG_L);
+  body.face_part.assign(body.skin.triangles.size(), part);
   return body;
 }
 
@@ -43,19 +43,25 @@ Pattern cuff(double width_cm) {
       {"name": "b", "a": [{"panel": "back", "edge": "end"}], "b": [{"panel": "front", "edge": "start"}]}]})");
 }
 
-std::vector<std::string> found(double width_cm) {
+std::vector<std::string> found(double width_cm, const body::Body& body, double height,
+                               const std::string& part) {
   const Pattern p = cuff(width_cm);
   PanelMesh mesh = mesh_pattern(p, 0.02, "test.json", 0);
   mesh.placed.resize(mesh.pattern.size());
-  for (std::size_t k = 0; k < mesh.panels.size(); ++k)
+  for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
+    mesh.panels[k].part = part;
     for (int v = mesh.panels[k].first_vertex;
          v < mesh.panels[k].first_vertex + mesh.panels[k].n_vertices; ++v) {
       const Vec2& at = mesh.pattern[v];
       const double x = at.x() - 0.005 * width_cm, away = RADIUS + 0.02;
-      mesh.placed[v] = k == 0 ? Vec3(x, 0.5 + at.y(), away) : Vec3(-x, 0.5 + at.y(), -away);
+      mesh.placed[v] = k == 0 ? Vec3(x, height + at.y(), away) : Vec3(-x, height + at.y(), -away);
     }
-  const body::Body body = leg();
+  }
   return tight_rings(p, mesh, BodySpace(body));
+}
+
+std::vector<std::string> found(double width_cm) {
+  return found(width_cm, column(body::Part::LEG_L, 1), 0.5, "leg_l");
 }
 
 TEST(TightRings, RunAcrossTheSeamsBetweenPanels) {
@@ -73,6 +79,14 @@ TEST(TightRings, ACuffShorterThanTheLegIsNamedInCentimetres) {
   EXPECT_NE(facts[0].find("front, back: 32.00 cm around, on a left leg of 43.9"), std::string::npos)
       << facts[0];
   EXPECT_NE(facts[0].find("stretched by 37 %"), std::string::npos) << facts[0];
+}
+
+TEST(TightRings, ARingAboveTheBustIsANecklineAndNoWaistband) {
+  const body::Body trunk = column(body::Part::TORSO, 1.7);
+  const std::vector<std::string> waistband = found(16, trunk, 1.0, "torso");
+  ASSERT_EQ(waistband.size(), 1u);
+  EXPECT_NE(waistband[0].find("on a waist of"), std::string::npos) << waistband[0];
+  EXPECT_TRUE(found(16, trunk, 1.4, "torso").empty());
 }
 
 TEST(TightRings, ACuffThatClosesIsNoFinding) {
