@@ -271,6 +271,12 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
   }
 }
 
+std::string point_text(const Vec3& p) {
+  char text[80];
+  std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f)", p.x(), p.y(), p.z());
+  return text;
+}
+
 } // namespace
 
 MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
@@ -389,10 +395,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
                   "parts touch: %d vertices of the skin drawn back by up to %.1f mm, so that cloth "
                   "finds a way between",
                   opened.vertices, 1000 * opened.largest_m);
-    char place[80];
-    std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", opened.place.x(), opened.place.y(),
-                  opened.place.z());
-    body.scan.findings.push_back({"scan.parts-touch"_id, "info", text, place});
+    body.scan.findings.push_back({"scan.parts-touch"_id, "info", text, point_text(opened.place)});
   }
   if (const ClosedSacs closed = close_head_sacs(body.skin, body.face_part); closed.sacs > 0) {
     char text[200];
@@ -401,10 +404,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
         "the head is hollow: %d faces (%.0f cm2) of mouth and eyes that cannot be seen from "
         "outside are left out of the skin",
         closed.faces, 1e4 * closed.area_m2);
-    char place[80];
-    std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", closed.place.x(), closed.place.y(),
-                  closed.place.z());
-    body.scan.findings.push_back({"scan.hollow-head"_id, "info", text, place});
+    body.scan.findings.push_back({"scan.hollow-head"_id, "info", text, point_text(closed.place)});
   }
   // the origin goes below the middle of the hip joints
   Vec3 origin = Vec3::Zero();

@@ -11,8 +11,8 @@ namespace {
 constexpr double LEAST_AGREEMENT = 0.3; ///< factor of the confidence
 constexpr double BROAD = 4;             ///< the agreement falls half as fast as the likelihood
 
-/// Deviations at which a rebuilt skin's landmark is told: of 28 fresh bodies as scanners deliver
-/// them 19 landmarks are beyond, and 7 of these are off by more than 25 mm.
+/// Deviations at which a rebuilt skin's landmark is reported: of 28 fresh bodies as scanners
+/// deliver them 19 landmarks are beyond, and 7 of these are off by more than 25 mm.
 constexpr double DISAGREE_REBUILT = 3;
 
 struct Place {

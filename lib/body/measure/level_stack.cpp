@@ -13,7 +13,7 @@ constexpr double LEVEL = 0.0003; ///< m: as low as makes no difference
 /// m: a crotch that is lowest in front and behind has its place in front, unless it is lower behind
 /// by more. Of 444 fresh bodies in natural stances 39 are nearly as low twice; by the vertical that
 /// the skin stands in 9 were put at the wrong end with 1 mm, 6 with 0.4. By the likeliest vertical
-/// 2 are with 0.2 mm, and both are told.
+/// 2 are with 0.2 mm, and both are reported.
 constexpr double FAVOUR = 0.0002;
 /// m: the other place may be the crotch too where it is higher by less, after the favour: a sixth
 /// of a degree of lean is as much.

@@ -9,10 +9,9 @@ namespace sloper::garment {
 
 namespace {
 
-// The share of cells that a fifth grading would dress was none of 192 (48 bodies, four garments).
-constexpr int MOST_GRADINGS = 4;
+constexpr int MOST_GRADINGS = 4; // each takes a drape; what they do not fit is refused
 
-/// One retargeting under way.
+/// The state of one retargeting, from the placed garment to the judged one.
 class Retargeting {
 public:
   Retargeting(const RetargetJob& job, Reporter& reporter) : m_job(job), m_reporter(reporter) {

@@ -15,7 +15,7 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
 /// The particle of a panel vertex, unsewn or sewn.
 int particle_at(const Garment& garment, int vertex);
 
-/// Particles of a fold line, in order: the shortest way over edges of the panel's mesh, through it
+/// Particles of a fold line, in order: the shortest path over edges of the panel's mesh, through it
 /// also where both ends lie on its outline. @throws Error INPUT naming the panels when there is
 /// none of that name
 std::vector<int> fold_particles(const Garment& garment, const PanelRun& run);

@@ -109,7 +109,7 @@ TEST(Dependents, share_the_doubt_of_what_they_rest_on) {
 }
 
 /// Of 28 scans as scanners deliver them five had a crotch that was estimated, told and 3 to 8 cm
-/// too high, and legs and hips that rest on it, which were not told.
+/// too high, and legs and hips that rest on it, which were not reported.
 TEST(Dependents, legs_and_hips_rest_on_a_crotch_that_is_estimated) {
   auto is_told = [](const char* rule) {
     Body body;
