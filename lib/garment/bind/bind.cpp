@@ -48,7 +48,8 @@ void bind_garment(Garment& garment, const body::Body& body) {
   garment.body_girths_m = girths_of(body);
 }
 
-std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, Waist waist) {
+std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, Waist waist,
+                                double lower_m) {
   const Bind& bind = garment.bind;
   if (bind.empty())
     throw input_error("garment.not-bound"_id, "", "/bind", "the garment is not bound to a body",
@@ -82,7 +83,9 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
       if (target[w.frame] < 0)
         continue;
       const BindFrame& to = frames.frames[target[w.frame]];
-      const double z = maps[w.frame](w.z);
+      const double lowered =
+          lower_m * (to.frame.upper - to.frame.lower).normalized().y() / to.frame.length();
+      const double z = maps[w.frame](w.z) - lowered;
       const double r = std::max(to.profile.at(w.theta, z) + w.gap, 0.0);
       placed[i] += w.weight / there * to.frame.point({r, w.theta, z});
     }

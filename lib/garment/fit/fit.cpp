@@ -30,7 +30,6 @@ constexpr double TRAILS = 0.01; // m below the soles: such a hem is trodden on
 constexpr double CERTAIN_SLIP = 1.1; // of what the policy bears: what has sunk so far does not rise
 constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen
                                        // to creep down by a quarter until it was at rest
-constexpr double GOES_ROUND = 0.99; // of the body's girth: as long as cloth is that goes round it
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
 constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
 
@@ -429,7 +428,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
       continue;
     if (beyond_rest > 0 && !(look(-SLIDE_BEYOND) && look(SLIDE_BEYOND)))
       beyond_rest = 0;
-    if (!look(0))
+    if (!look(0) || is_bridged_through(place, *line))
       continue;
     const double missing = std::max(beyond_stretch, beyond_rest);
     if (missing > 0)

@@ -266,6 +266,10 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
   return assemble_line(std::move(chains), center, place.normal, LARGEST_OPEN);
 }
 
+bool is_bridged_through(const FitPlace& place, const SectionLine& line) {
+  return line.bridged > 0 && line.lying < GOES_ROUND * (place.body_m - place.body_spread_m);
+}
+
 std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& place,
                                     double convergence, std::string& why,
                                     const std::vector<Vec3>* source) {
@@ -306,6 +310,8 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
   }
   if (cut_open && widens > 2 * place.height_error_m * static_cast<double>(line->chains.size()))
     return why = "a hem crosses it", std::nullopt;
+  if (is_bridged_through(place, *line))
+    return why = "the bridge over its opening cuts through the body", std::nullopt;
   if (place.kind == "neck" && change > SLANT * row.rest_m)
     return why = "the cloth crosses it at a slant", std::nullopt; // shoulders, not a neck
   finish_row(cloth, place, *line, change, convergence, row);

@@ -37,6 +37,13 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
                                        const FitPlace& place, double shift, std::string& why,
                                        const std::vector<Vec3>* elsewhere = nullptr);
 
+constexpr double GOES_ROUND = 0.99; // of the body's girth: as long as cloth is that goes round it
+
+/// Whether the straight bridges over a line's openings pass through the body: with them it is
+/// shorter than the taut girth, so its ease is not known. A top edge that dips below a level does
+/// so.
+bool is_bridged_through(const FitPlace& place, const SectionLine& line);
+
 /// A girth of the body where the garment goes round it, or nothing and why. @param convergence  m
 /// that the cloth may still move   @param source  where the particles are on the body that the
 /// garment comes from, for FitRow::worn_strain, or nullptr

@@ -5,8 +5,10 @@
 #include <garment/bind/bind_laplacian.hpp>
 #include <garment/bind/body_sides.hpp>
 #include <garment/retarget/retarget_grade.hpp>
+#include <garment/retarget/seat.hpp>
 #include <garment/simulate/sleeve_ends.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
 #include <sloper/collision/intersections.hpp>
 #include <sloper/collision/skin_cache.hpp>
 #include <sloper/garment/bind/bind.hpp>
@@ -181,6 +183,20 @@ void grade(Retargeted& result, const Garment& source, const std::vector<Vec3>& a
   ++result.report.gradings;
 }
 
+/// Lowers a skirt or trousers to where the top edge closes.
+/// @return particles of that edge, from which they hang
+std::vector<int> seat(Retargeted& result, const Garment& source, const body::Body& to,
+                      Reporter& reporter) {
+  const Seat seat = seat_of_waist(result.garment, source.position, to);
+  result.report.seated_lower_m = seat.below_m;
+  if (seat.below_m > 0) {
+    result.garment.position = place_garment(source, to, Waist::SEMANTIC, seat.below_m);
+    reporter.info("the top edge does not close where it was placed: worn " +
+                  centimetres(seat.below_m) + " lower");
+  }
+  return seat.edge;
+}
+
 } // namespace
 
 RetargetMode retarget_mode_from_name(const std::string& name) {
@@ -199,6 +215,7 @@ io::Json placement_json(const PlacementReport& r) {
           {"largest_move_m", r.largest_move_m},
           {"mirrored_panels", r.mirrored_panels},
           {"gradings", r.gradings},
+          {"seated_lower_m", r.seated_lower_m},
           {"stretch", {{"p01", r.stretch_p01}, {"p50", r.stretch_p50}, {"p99", r.stretch_p99}}},
           {"settled_stretch",
            {{"p01", r.settled_p01}, {"p50", r.settled_p50}, {"p99", r.settled_p99}}}};
@@ -334,6 +351,9 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
   g.converged = false;
   const bool keep_fit = mode == RetargetMode::KEEP_FIT;
   g.position = place_garment(garment, to, keep_fit ? Waist::OF_ALL : Waist::SEMANTIC);
+  result.placed = g.position;
+  const std::vector<int> hangs_from =
+      keep_fit ? std::vector<int>() : seat(result, garment, to, reporter);
   std::optional<collision::BodyCollider> mittens;
   if (const std::size_t moved =
           bring_under_arms(g.position, hanging_on_arms(g.bind), to, g.offset_m);
@@ -359,11 +379,11 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
   PlacementReport& report = result.report;
   measure(report.stretch_p01, report.stretch_p50, report.stretch_p99);
   report.placed = state_of(g.position, triangles, skin);
-  const std::vector<Vec3>& placed = result.placed = g.position;
+  const std::vector<Vec3> placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is
   // regraded to where the skin lets it lie.
   const std::vector<Vec3>& shape = keep_fit ? placed : garment.position;
-  report.clear_rounds = settle_shape(g.position, shape, triangles, met, g.offset_m);
+  report.clear_rounds = settle_shape(g.position, shape, triangles, met, g.offset_m, hangs_from);
   if (const std::vector<int> pushed = ends_pushed_on_hands(g, placed, garment.position);
       !pushed.empty()) {
     g.position = placed;

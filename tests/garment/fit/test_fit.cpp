@@ -1,7 +1,8 @@
+#include "dressed.hpp"
+
 #include <support/skin_garment.hpp>
 
 #include <garment/fit/fit_places.hpp>
-#include <garment/fit/fit_section.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/fit/fit.hpp>
@@ -16,19 +17,6 @@
 namespace sloper::garment {
 
 namespace {
-
-struct Dressed {
-  body::Body body;
-  Garment garment;
-  FitReport report;
-};
-
-Dressed dressed(body::Body body, Garment garment, const FitPolicy& policy = standard_fit_policy()) {
-  bind_garment(garment, body);
-  const collision::BodyCollider skin(body.skin);
-  FitReport report = fit_garment(garment, body, skin, policy);
-  return {std::move(body), std::move(garment), std::move(report)};
-}
 
 const FitRow* row(const FitReport& report, const std::string& name) {
   for (const FitRow& r : report.rows)
@@ -45,48 +33,7 @@ std::string left_out(const FitReport& report, const std::string& name) {
   return name;
 }
 
-std::string policy_file(const std::string& text) {
-  const std::string path = testing::TempDir() + "policy.json";
-  std::ofstream(path) << R"({"format": "fit-policy", "version": 1, )" << text << "}";
-  return path;
-}
-
-/// An open half tube of radius 1 about y, from angle a to b.
-SectionChain arc(double a, double b, double radius, bool backwards = false) {
-  SectionChain chain;
-  const int n = 100;
-  for (int i = 0; i < n; ++i) {
-    const double u = a + (b - a) * i / n, v = a + (b - a) * (i + 1) / n;
-    const Vec3 p(radius * std::sin(u), 0, radius * std::cos(u)),
-        q(radius * std::sin(v), 0, radius * std::cos(v));
-    chain.segments.push_back({0, p, q, (q - p).norm(), 0});
-    chain.length += (q - p).norm();
-    chain.rest_length += (q - p).norm();
-  }
-  if (backwards)
-    chain.reverse();
-  return chain;
-}
-
 } // namespace
-
-TEST(FitPolicy, what_is_borne_on_its_own_body_is_borne_on_another) {
-  FitPolicy policy = standard_fit_policy();
-  const FitLimits limits = policy.limits("bust", "top");
-  EXPECT_EQ(policy.too_small_ease(limits, -0.06, "bust", "top", ""), limits.too_small_ease)
-      << "nothing is known of it";
-  EXPECT_EQ(policy.strain_p99("top", ""), 0.05);
-  policy.worn_p99 = 0.07;
-  policy.worn_max = 0.1;
-  EXPECT_NEAR(policy.strain_p99("top", ""), 0.077, 1e-12);
-  EXPECT_EQ(policy.strain_max("top", ""), 0.30) << "what any cloth bears stays";
-  EXPECT_NEAR(policy.too_small_ease(limits, -0.06, "bust", "top", ""), -0.07, 1e-12);
-  EXPECT_EQ(policy.too_small_ease(limits, 0.2, "bust", "top", ""), limits.too_small_ease)
-      << "it was not tight";
-  policy.own.all.standard.too_small_ease = -0.02;
-  EXPECT_EQ(policy.too_small_ease(policy.limits("bust", "top"), -0.06, "bust", "top", ""), -0.02)
-      << "a document says so";
-}
 
 TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
   const Dressed d = dressed(measured("f-165-a"), skin_shirt(measured("f-165-a"), 0.01));
@@ -255,6 +202,27 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
         << both;
   }
   ASSERT_TRUE(row(dressed(body, whole).report, "waist_semantic"));
+}
+
+TEST(fit, a_level_below_which_the_top_edge_dips_is_not_bridged_through_the_body) {
+  const body::Body body = measured("f-165-a");
+  const double level = body.levels.at("underbust").y;
+  const Garment high = skin_garment(body, {body::Part::TORSO}, body.levels.at("hip").y,
+                                    body.levels.at("bust").y, 0.001);
+  const Vec3 axis = body.landmark("hip_center");
+  std::vector<Triangle> faces;
+  for (const Triangle& t : high.panels.triangles) {
+    const Vec3 p = (high.position[t[0]] + high.position[t[1]] + high.position[t[2]]) / 3;
+    const bool in_the_dip =
+        p.y() > level - 0.06 && p.z() - axis.z() > 0.6 * std::abs(p.x() - axis.x());
+    if (!in_the_dip)
+      faces.push_back(t);
+  }
+  const Dressed d = dressed(body, sheet(high.position, faces, 0));
+  EXPECT_FALSE(row(d.report, "underbust"));
+  EXPECT_EQ(left_out(d.report, "underbust"),
+            "underbust: the bridge over its opening cuts through the body");
+  EXPECT_TRUE(row(dressed(body, high).report, "underbust"));
 }
 
 TEST(fit, a_shirt_is_one_on_a_body_without_arm_pits_too) {
@@ -482,29 +450,6 @@ TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
   }
 }
 
-TEST(fit_section, front_and_back_are_bridged_under_the_arms) {
-  const double h = M_PI / 2;
-  const auto line =
-      assemble_line({arc(-0.8 * h, 0.8 * h, 0.15), arc(M_PI - 0.8 * h, M_PI + 0.8 * h, 0.15, true)},
-                    Vec3::Zero(), Vec3::UnitY(), 0.4);
-  ASSERT_TRUE(line);
-  EXPECT_EQ(line->chains.size(), 2u);
-  EXPECT_NEAR(line->bridged, 2 * 2 * 0.15 * std::sin(0.2 * h), 1e-6);
-  EXPECT_NEAR(line->rest, 0.15 * 2 * M_PI * 0.8 + line->bridged, 1e-3);
-}
-
-TEST(fit_section, a_facing_over_a_front_counts_once) {
-  const auto line =
-      assemble_line({arc(-1.5, 1.5, 0.15), arc(1.7, 4.5, 0.15), arc(-0.5, 0.5, 0.152)},
-                    Vec3::Zero(), Vec3::UnitY(), 0.4);
-  ASSERT_TRUE(line);
-  EXPECT_EQ(line->chains.size(), 2u);
-}
-
-TEST(fit_section, a_scarf_does_not_go_round) {
-  EXPECT_FALSE(assemble_line({arc(-1, 1, 0.15)}, Vec3::Zero(), Vec3::UnitY(), 0.4));
-}
-
 TEST(fit, a_garment_for_whose_fit_the_drape_was_ended_does_not_fit) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_shirt(body, 0.01));
@@ -514,104 +459,6 @@ TEST(fit, a_garment_for_whose_fit_the_drape_was_ended_does_not_fit) {
       fit_garment(d.garment, body, skin, standard_fit_policy(), nullptr, "slides down");
   EXPECT_FALSE(ended.fits);
   EXPECT_EQ(ended.reason, "slides down too far to fit");
-}
-
-TEST(fit_policy, a_girth_goes_before_the_default_and_a_fabric_before_a_class) {
-  const FitPolicy p = read_fit_policy(
-      policy_file(R"("name": "shop", "refuse": ["tight"], "default": {"tight_ease": 0.02},
-    "girths": {"wrist": {"loose_ease": 1.0}}, "classes": {"skirt": {"default": {"loose_ease": 2.0}}},
-    "fabrics": {"jersey": {"default": {"too_small_ease": -0.2, "tight_ease": -0.1}, "strain_p99": 0.25}})"));
-  EXPECT_TRUE(p.refuse_tight);
-  EXPECT_DOUBLE_EQ(p.limits("bust").tight_ease, 0.02);
-  EXPECT_DOUBLE_EQ(p.limits("bust").loose_ease, 0.5);
-  EXPECT_DOUBLE_EQ(p.limits("wrist_l").loose_ease, 1.0);
-  EXPECT_DOUBLE_EQ(p.limits("hip", "skirt").loose_ease, 2.0);
-  EXPECT_DOUBLE_EQ(p.limits("hip", "skirt", "jersey").tight_ease, -0.1);
-  EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "jersey"), 0.25);
-  EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "poplin"), 0.05);
-}
-
-TEST(fit_policy, what_hangs_from_the_waist_may_not_be_far_wider_than_it) {
-  const FitPolicy woven = standard_fit_policy();
-  EXPECT_LT(woven.limits("waist_semantic", "trousers").too_large_ease, 0.42);
-  EXPECT_LT(woven.limits("top_edge", "skirt").too_large_ease, 0.42);
-  EXPECT_LT(woven.limits("waist_semantic", "top").loose_ease, 0.42);
-  EXPECT_GT(woven.limits("hip", "skirt").loose_ease, 1);
-  EXPECT_TRUE(std::isinf(woven.limits("hip", "skirt").too_large_ease));
-  EXPECT_TRUE(std::isinf(
-      woven.limits("omphalion", "skirt").too_large_ease)); // it may flare from its top edge on
-}
-
-TEST(fit_policy, a_limit_that_is_said_pushes_those_that_are_not) {
-  const FitPolicy p = read_fit_policy(policy_file(
-      R"("default": {"too_large_ease": 0.1}, "girths": {"bust": {"loose_ease": 0.9}})"));
-  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").too_large_ease,
-                   0.1); // before the standard policy's own word on the waist
-  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").loose_ease, 0.1);
-  EXPECT_DOUBLE_EQ(p.limits("bust", "top").loose_ease, 0.9);
-  EXPECT_DOUBLE_EQ(p.limits("bust", "top").too_large_ease, 0.9);
-  EXPECT_THROW(
-      read_fit_policy(policy_file(R"("default": {"loose_ease": 0.5, "too_large_ease": 0.1})")),
-      Error);
-}
-
-TEST(fit_policy, a_girth_above_its_limit_is_too_large_and_refused) {
-  const body::Body body = measured("f-165-a");
-  FitPolicy policy = read_fit_policy(
-      policy_file(R"("girths": {"bust": {"loose_ease": 0.01, "too_large_ease": 0.02}})"));
-  const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
-  EXPECT_FALSE(d.report.fits);
-  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_LARGE);
-  EXPECT_EQ(d.report.reason.rfind("is too large at the bust: ", 0), 0u) << d.report.reason;
-  const io::Json document = fit_json(d.report, "test");
-  EXPECT_NEAR(document["girths"]["bust"]["limits_percent"]["too_large"].get<double>(), 2, 1e-9);
-  EXPECT_NE(fit_page(d.report, "a", "b").find("class=\"limit\""), std::string::npos);
-}
-
-TEST(fit_policy, a_girth_with_less_ease_than_is_asked_for_is_not_told_as_one_that_does_not_close) {
-  const body::Body body = measured("f-165-a");
-  const FitPolicy policy = read_fit_policy(
-      policy_file(R"("girths": {"bust": {"too_small_ease": 0.4, "tight_ease": 0.4}})"));
-  const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
-  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
-  EXPECT_EQ(d.report.reason.rfind("has too little ease at the bust: ", 0), 0u) << d.report.reason;
-}
-
-TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
-  FitPolicy policy = standard_fit_policy();
-  const FitLimits limits = policy.limits("waist_semantic", "top");
-  const double limit = limits.too_large_ease;
-  EXPECT_EQ(policy.too_large_ease(limits, 0.1, "waist_semantic", "top", ""), limit);
-  EXPECT_DOUBLE_EQ(policy.too_large_ease(limits, 0.9, "waist_semantic", "top", ""),
-                   1.9 * (1 + 0.5 * limit) - 1);
-  policy.own.classes["top"].girths["waist_semantic"].too_large_ease = 0.3;
-  EXPECT_EQ(policy.too_large_ease(policy.limits("waist_semantic", "top"), 0.9, "waist_semantic",
-                                  "top", ""),
-            0.3)
-      << "said is said";
-
-  const body::Body body = measured("f-165-a");
-  Garment tent = skin_shirt(body, 0.12);
-  bind_garment(tent, body);
-  const collision::BodyCollider skin(body.skin);
-  std::map<std::string, double> stouter = tent.body_girths_m;
-  EXPECT_EQ(fit_garment(tent, body, skin, standard_fit_policy()).verdict, FitVerdict::TOO_LARGE);
-  EXPECT_TRUE(
-      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", tent.body_girths_m).fits);
-  for (auto& [name, girth] : stouter)
-    girth *= 1.6; // cut for a much stouter person
-  const FitReport report =
-      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", stouter);
-  EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE) << report.reason;
-}
-
-TEST(fit_policy, what_it_does_not_know_is_refused) {
-  EXPECT_THROW(read_fit_policy(policy_file(R"("defualt": {})")), Error);
-  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight": 1})")), Error);
-  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight_ease": 0.5, "loose_ease": 0.1})")),
-               Error);
-  EXPECT_THROW(read_fit_policy(policy_file(R"("refuse": ["ugly"])")), Error);
-  EXPECT_THROW(read_fit_policy(policy_file(R"("classes": {"hat": {}})")), Error);
 }
 
 } // namespace sloper::garment

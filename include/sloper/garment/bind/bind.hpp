@@ -32,8 +32,9 @@ enum class Waist {
 /// Positions of the particles on `body`, #P by 3, m. Pure geometry: collisions and strain
 /// are not considered.
 /// @param waist  height that the waist is mapped to
+/// @param lower_m  m by which the whole garment is placed lower, its gap to the skin kept
 /// @throws Error INPUT when the garment is not bound or hangs on a part that `body` lacks
 std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body,
-                                Waist waist = Waist::SEMANTIC);
+                                Waist waist = Waist::SEMANTIC, double lower_m = 0);
 
 } // namespace sloper::garment

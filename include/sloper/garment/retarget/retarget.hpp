@@ -39,8 +39,11 @@ struct PlacementReport {
   double stretch_p01 = 0, stretch_p50 = 0, stretch_p99 = 0;
   double settled_p01 = 0, settled_p50 = 0, settled_p99 = 0; ///< the same after settle_shape()
   double largest_move_m = 0;                                ///< of settle_shape()
-  int mirrored_panels = 0;       ///< keep-fit: graded together with their mirror images
-  int gradings = 0;              ///< keep-fit: by retarget() and widen_strained_pieces()
+  int mirrored_panels = 0; ///< keep-fit: graded together with their mirror images
+  int gradings = 0;        ///< keep-fit: by retarget() and widen_strained_pieces()
+  /// keep-fabric: how much lower than by coordinates a skirt or trousers are worn, because the top
+  /// edge does not close there; 0 to 0.1.
+  double seated_lower_m = 0;
   std::vector<Message> findings; ///< keep-fit: of the last regrade()
 };
 /// `placement` of report.json.
@@ -89,7 +92,7 @@ struct Retargeted {
   /// Placed on the new body and clear of its skin, still bound to the old one; converged
   /// is false.
   Garment garment;
-  std::vector<Vec3> placed; ///< #P by 3, m: by coordinates alone
+  std::vector<Vec3> placed; ///< #P by 3, m: by coordinates alone, not yet seated lower
   /// Longer than the arms, and their ends are at the wrists: for
   /// StartFacts::hold_sleeve_ends.
   bool has_folded_sleeves = false;

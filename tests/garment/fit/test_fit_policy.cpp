@@ -1,0 +1,142 @@
+#include "dressed.hpp"
+
+#include <support/skin_garment.hpp>
+
+#include <sloper/base/error.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/fit/fit.hpp>
+#include <sloper/io/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace sloper::garment {
+
+namespace {
+
+std::string policy_file(const std::string& text) {
+  const std::string path = testing::TempDir() + "policy.json";
+  std::ofstream(path) << R"({"format": "fit-policy", "version": 1, )" << text << "}";
+  return path;
+}
+
+} // namespace
+
+TEST(FitPolicy, what_is_borne_on_its_own_body_is_borne_on_another) {
+  FitPolicy policy = standard_fit_policy();
+  const FitLimits limits = policy.limits("bust", "top");
+  EXPECT_EQ(policy.too_small_ease(limits, -0.06, "bust", "top", ""), limits.too_small_ease)
+      << "nothing is known of it";
+  EXPECT_EQ(policy.strain_p99("top", ""), 0.05);
+  policy.worn_p99 = 0.07;
+  policy.worn_max = 0.1;
+  EXPECT_NEAR(policy.strain_p99("top", ""), 0.077, 1e-12);
+  EXPECT_EQ(policy.strain_max("top", ""), 0.30) << "what any cloth bears stays";
+  EXPECT_NEAR(policy.too_small_ease(limits, -0.06, "bust", "top", ""), -0.07, 1e-12);
+  EXPECT_EQ(policy.too_small_ease(limits, 0.2, "bust", "top", ""), limits.too_small_ease)
+      << "it was not tight";
+  policy.own.all.standard.too_small_ease = -0.02;
+  EXPECT_EQ(policy.too_small_ease(policy.limits("bust", "top"), -0.06, "bust", "top", ""), -0.02)
+      << "a document says so";
+}
+
+TEST(fit_policy, a_girth_goes_before_the_default_and_a_fabric_before_a_class) {
+  const FitPolicy p = read_fit_policy(
+      policy_file(R"("name": "shop", "refuse": ["tight"], "default": {"tight_ease": 0.02},
+    "girths": {"wrist": {"loose_ease": 1.0}}, "classes": {"skirt": {"default": {"loose_ease": 2.0}}},
+    "fabrics": {"jersey": {"default": {"too_small_ease": -0.2, "tight_ease": -0.1}, "strain_p99": 0.25}})"));
+  EXPECT_TRUE(p.refuse_tight);
+  EXPECT_DOUBLE_EQ(p.limits("bust").tight_ease, 0.02);
+  EXPECT_DOUBLE_EQ(p.limits("bust").loose_ease, 0.5);
+  EXPECT_DOUBLE_EQ(p.limits("wrist_l").loose_ease, 1.0);
+  EXPECT_DOUBLE_EQ(p.limits("hip", "skirt").loose_ease, 2.0);
+  EXPECT_DOUBLE_EQ(p.limits("hip", "skirt", "jersey").tight_ease, -0.1);
+  EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "jersey"), 0.25);
+  EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "poplin"), 0.05);
+}
+
+TEST(fit_policy, what_hangs_from_the_waist_may_not_be_far_wider_than_it) {
+  const FitPolicy woven = standard_fit_policy();
+  EXPECT_LT(woven.limits("waist_semantic", "trousers").too_large_ease, 0.42);
+  EXPECT_LT(woven.limits("top_edge", "skirt").too_large_ease, 0.42);
+  EXPECT_LT(woven.limits("waist_semantic", "top").loose_ease, 0.42);
+  EXPECT_GT(woven.limits("hip", "skirt").loose_ease, 1);
+  EXPECT_TRUE(std::isinf(woven.limits("hip", "skirt").too_large_ease));
+  EXPECT_TRUE(std::isinf(
+      woven.limits("omphalion", "skirt").too_large_ease)); // it may flare from its top edge on
+}
+
+TEST(fit_policy, a_limit_that_is_said_pushes_those_that_are_not) {
+  const FitPolicy p = read_fit_policy(policy_file(
+      R"("default": {"too_large_ease": 0.1}, "girths": {"bust": {"loose_ease": 0.9}})"));
+  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").too_large_ease,
+                   0.1); // before the standard policy's own word on the waist
+  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").loose_ease, 0.1);
+  EXPECT_DOUBLE_EQ(p.limits("bust", "top").loose_ease, 0.9);
+  EXPECT_DOUBLE_EQ(p.limits("bust", "top").too_large_ease, 0.9);
+  EXPECT_THROW(
+      read_fit_policy(policy_file(R"("default": {"loose_ease": 0.5, "too_large_ease": 0.1})")),
+      Error);
+}
+
+TEST(fit_policy, a_girth_above_its_limit_is_too_large_and_refused) {
+  const body::Body body = measured("f-165-a");
+  FitPolicy policy = read_fit_policy(
+      policy_file(R"("girths": {"bust": {"loose_ease": 0.01, "too_large_ease": 0.02}})"));
+  const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
+  EXPECT_FALSE(d.report.fits);
+  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_LARGE);
+  EXPECT_EQ(d.report.reason.rfind("is too large at the bust: ", 0), 0u) << d.report.reason;
+  const io::Json document = fit_json(d.report, "test");
+  EXPECT_NEAR(document["girths"]["bust"]["limits_percent"]["too_large"].get<double>(), 2, 1e-9);
+  EXPECT_NE(fit_page(d.report, "a", "b").find("class=\"limit\""), std::string::npos);
+}
+
+TEST(fit_policy, a_girth_with_less_ease_than_is_asked_for_is_not_told_as_one_that_does_not_close) {
+  const body::Body body = measured("f-165-a");
+  const FitPolicy policy = read_fit_policy(
+      policy_file(R"("girths": {"bust": {"too_small_ease": 0.4, "tight_ease": 0.4}})"));
+  const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
+  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
+  EXPECT_EQ(d.report.reason.rfind("has too little ease at the bust: ", 0), 0u) << d.report.reason;
+}
+
+TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
+  FitPolicy policy = standard_fit_policy();
+  const FitLimits limits = policy.limits("waist_semantic", "top");
+  const double limit = limits.too_large_ease;
+  EXPECT_EQ(policy.too_large_ease(limits, 0.1, "waist_semantic", "top", ""), limit);
+  EXPECT_DOUBLE_EQ(policy.too_large_ease(limits, 0.9, "waist_semantic", "top", ""),
+                   1.9 * (1 + 0.5 * limit) - 1);
+  policy.own.classes["top"].girths["waist_semantic"].too_large_ease = 0.3;
+  EXPECT_EQ(policy.too_large_ease(policy.limits("waist_semantic", "top"), 0.9, "waist_semantic",
+                                  "top", ""),
+            0.3)
+      << "said is said";
+
+  const body::Body body = measured("f-165-a");
+  Garment tent = skin_shirt(body, 0.12);
+  bind_garment(tent, body);
+  const collision::BodyCollider skin(body.skin);
+  std::map<std::string, double> stouter = tent.body_girths_m;
+  EXPECT_EQ(fit_garment(tent, body, skin, standard_fit_policy()).verdict, FitVerdict::TOO_LARGE);
+  EXPECT_TRUE(
+      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", tent.body_girths_m).fits);
+  for (auto& [name, girth] : stouter)
+    girth *= 1.6; // cut for a much stouter person
+  const FitReport report =
+      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", stouter);
+  EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE) << report.reason;
+}
+
+TEST(fit_policy, what_it_does_not_know_is_refused) {
+  EXPECT_THROW(read_fit_policy(policy_file(R"("defualt": {})")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight": 1})")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight_ease": 0.5, "loose_ease": 0.1})")),
+               Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("refuse": ["ugly"])")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("classes": {"hat": {}})")), Error);
+}
+
+} // namespace sloper::garment
