@@ -289,9 +289,7 @@ void add_redrape_spread(const Redrapes& redrapes, FitReport& report) {
 
 FitReport fit_garment(const Garment& garment, const body::Body& body,
                       const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed, const std::string& unfit,
-                      const std::map<std::string, double>& made_for,
-                      const std::vector<Vec3>* source) {
+                      const FitHistory& history) {
   if (garment.bind.empty())
     throw input_error("garment.not-bound"_id, "", "/bind", "the garment is not bound to a body",
                       "drape it on the body first");
@@ -308,10 +306,10 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
   }
   if (body.has_landmark("foot_tip_l") || body.has_landmark("foot_tip_r"))
     report.below_soles_m = std::max(0.0, soles_of(body) - report.hem_height_m);
-  if (placed) {
+  if (history.placed) {
     std::vector<double> sunk;
-    for (std::size_t i = 0; i < placed->size(); ++i)
-      sunk.push_back((*placed)[i].y() - garment.position[i].y());
+    for (std::size_t i = 0; i < history.placed->size(); ++i)
+      sunk.push_back((*history.placed)[i].y() - garment.position[i].y());
     report.slip_m = sunk.empty() ? 0 : upper_median(sunk);
   }
   const std::vector<std::string> region = regions_of(garment, body);
@@ -332,27 +330,28 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
         report.left_out.emplace_back(name, why);
       return;
     }
-    take_limits(policy, report, made_for, *row);
+    take_limits(policy, report, history.made_for, *row);
     judge(garment.converged, *row);
     tell_long_sleeve(report.lines, *row);
     report.rows.push_back(std::move(*row));
   };
   for (const FitPlace& place : fit_places(body)) {
     measured.insert(place.name);
-    add(measure_place(cloth, place, report.convergence_m, why, source), place.name);
+    add(measure_place(cloth, place, report.convergence_m, why, history.source), place.name);
   }
   report.lines = fit_lines(garment, body);
   for (const FitHem& hem : report.lines.hems)
-    add(measure_edge(cloth, body, hem, report.convergence_m, why, source), hem.name + " edge");
+    add(measure_edge(cloth, body, hem, report.convergence_m, why, history.source),
+        hem.name + " edge");
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name))
       report.left_out.emplace_back(name, "the body document does not say where it was measured");
   add_redrape_spread(garment.redrapes, report);
-  if (placed)
+  if (history.placed)
     report.slip_borne_m = slip_borne(policy, report.lines, body, report);
-  conclude(policy, unfit, report);
+  conclude(policy, history.unfit, report);
   report.strain_unknown = garment.strain_unknown;
-  take_probability(policy, made_for, garment.converged || !unfit.empty(), report);
+  take_probability(policy, history.made_for, garment.converged || !history.unfit.empty(), report);
   return report;
 }
 

@@ -31,7 +31,8 @@ void follow_worn(const Garment& source, const body::Body& body, const collision:
   if (source.body_sha256.empty() || source.body_sha256 != body_sha256)
     return;
   std::map<std::string, double> ease;
-  const FitReport here = fit_garment(source, body, skin, policy, nullptr, {}, source.body_girths_m);
+  const FitReport here =
+      fit_garment(source, body, skin, policy, {.made_for = source.body_girths_m});
   for (const FitRow& row : here.rows)
     ease[row.name] = row.ease_m / row.body_m;
   policy.worn_here = std::move(ease);

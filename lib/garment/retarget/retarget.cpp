@@ -221,9 +221,10 @@ io::Json placement_json(const PlacementReport& r) {
            {{"p01", r.settled_p01}, {"p50", r.settled_p50}, {"p99", r.settled_p99}}}};
 }
 
-int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape,
-                 const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
-                 double gap, const std::vector<int>& held, int max_rounds) {
+int settle_shape(std::vector<Vec3>& positions, const ShapeToSettle& cloth,
+                 const collision::BodyCollider& body, double gap) {
+  const std::vector<Vec3>& shape = cloth.shape;
+  const std::vector<Triangle>& triangles = cloth.triangles;
   const std::size_t n = positions.size();
   const std::vector<Vec3> placed = positions;
   const collision::Topology topology = collision::make_topology(n, triangles);
@@ -231,7 +232,7 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape,
   const Rotations rotations(shape, ops);
   const double push_stiffness = CONTACT_STIFFNESS / (CONTACT_LENGTH * CONTACT_LENGTH);
   std::vector<double> attraction(n, 1 / (ATTRACTION_LENGTH * ATTRACTION_LENGTH));
-  for (int i : held)
+  for (int i : cloth.held)
     attraction[i] = push_stiffness;
   Eigen::SparseMatrix<double> free_system = ops.stiffness;
   for (std::size_t i = 0; i < n; ++i)
@@ -253,7 +254,8 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape,
     return through > 0 && round - best_round < PATIENCE &&
            static_cast<double>(through) < FEW_THROUGH * static_cast<double>(triangles.size());
   };
-  for (; round < max_rounds || (round < MOST_TIMES * max_rounds && few_are_through()); ++round) {
+  for (; round < cloth.max_rounds || (round < MOST_TIMES * cloth.max_rounds && few_are_through());
+       ++round) {
     const Pushes pushes = pushes_of(positions, triangles, topology, body, gap, hint);
     if (round >= LEAST_ROUNDS && largest_move < STILL &&
         pushes.nearest() >= FINAL_GAP_SHARE * gap &&
@@ -383,11 +385,11 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
   // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is
   // regraded to where the skin lets it lie.
   const std::vector<Vec3>& shape = keep_fit ? placed : garment.position;
-  report.clear_rounds = settle_shape(g.position, shape, triangles, met, g.offset_m, hangs_from);
+  report.clear_rounds = settle_shape(g.position, {shape, triangles, hangs_from}, met, g.offset_m);
   if (const std::vector<int> pushed = ends_pushed_on_hands(g, placed, garment.position);
       !pushed.empty()) {
     g.position = placed;
-    report.clear_rounds += settle_shape(g.position, shape, triangles, met, g.offset_m, pushed);
+    report.clear_rounds += settle_shape(g.position, {shape, triangles, pushed}, met, g.offset_m);
     result.has_folded_sleeves = true;
     reporter.info(
         "a sleeve is longer than the arm and narrower than the hand: its end stays at the wrist");

@@ -81,8 +81,11 @@ private:
   FitReport judge(const Garment& worn, Misfit misfit) const {
     const bool is_cut_anew = m_job.mode == RetargetMode::KEEP_FIT;
     const Garment& made = is_cut_anew ? m_out.retargeted.garment : m_job.source;
-    return fit_garment(worn, m_job.body, m_job.skin, m_job.policy, &m_out.retargeted.placed,
-                       misfit_text(misfit), made.body_girths_m, &m_job.source.position);
+    return fit_garment(worn, m_job.body, m_job.skin, m_job.policy,
+                       {.placed = &m_out.retargeted.placed,
+                        .unfit = misfit_text(misfit),
+                        .made_for = made.body_girths_m,
+                        .source = &m_job.source.position});
   }
 
   /// What keep-fit can mend by letting the garment out; else empty.

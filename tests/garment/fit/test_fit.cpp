@@ -274,11 +274,12 @@ TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
   for (Vec3& p : trousers.position)
     p.y() -= 3;
   const collision::BodyCollider skin(body.skin);
-  const FitReport slid = fit_garment(trousers, body, skin, standard_fit_policy(), &placed);
+  const FitReport slid =
+      fit_garment(trousers, body, skin, standard_fit_policy(), {.placed = &placed});
   EXPECT_TRUE(slid.rows.empty());
   EXPECT_FALSE(slid.fits);
   EXPECT_EQ(slid.reason.rfind("slides down by 300", 0), 0u) << slid.reason;
-  EXPECT_EQ(fit_garment(trousers, body, skin, standard_fit_policy(), nullptr).reason,
+  EXPECT_EQ(fit_garment(trousers, body, skin, standard_fit_policy()).reason,
             "does not go around any girth of the body");
 }
 
@@ -289,7 +290,7 @@ TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an a
     p.y() += 3;
   const std::vector<Vec3> placed = trousers.position;
   const FitReport lying = fit_garment(trousers, body, collision::BodyCollider(body.skin),
-                                      standard_fit_policy(), &placed);
+                                      standard_fit_policy(), {.placed = &placed});
   EXPECT_TRUE(lying.rows.empty());
   EXPECT_TRUE(lying.fits) << lying.reason;
   EXPECT_EQ(lying.reason,
@@ -344,7 +345,7 @@ TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
     std::vector<Vec3> placed = g.position;
     for (Vec3& p : placed)
       p.y() += distance;
-    const FitReport report = fit_garment(g, body, skin, policy, &placed);
+    const FitReport report = fit_garment(g, body, skin, policy, {.placed = &placed});
     EXPECT_EQ(report.garment_class, "skirt");
     EXPECT_NEAR(report.slip_m, distance, 1e-9);
     EXPECT_NEAR(report.slip_borne_m, std::max(0.1, distance + top_edge - hip), 0.01);
@@ -366,10 +367,11 @@ TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
   std::vector<Vec3> placed = g.position;
   for (Vec3& p : placed)
     p.y() += 0.15;
-  EXPECT_EQ(fit_garment(g, body, skin, policy, &placed).reason, "slides down by 15.0 cm");
+  EXPECT_EQ(fit_garment(g, body, skin, policy, {.placed = &placed}).reason,
+            "slides down by 15.0 cm");
   policy.own.all.slip_m.reset();
   policy.refuse_loose = true;
-  EXPECT_FALSE(fit_garment(g, body, skin, policy, &placed).fits);
+  EXPECT_FALSE(fit_garment(g, body, skin, policy, {.placed = &placed}).fits);
 }
 
 TEST(fit, legs_that_reach_below_the_soles_are_too_long) {
@@ -456,7 +458,7 @@ TEST(fit, a_garment_for_whose_fit_the_drape_was_ended_does_not_fit) {
   ASSERT_TRUE(d.report.fits) << d.report.reason;
   const collision::BodyCollider skin(body.skin);
   const FitReport ended =
-      fit_garment(d.garment, body, skin, standard_fit_policy(), nullptr, "slides down");
+      fit_garment(d.garment, body, skin, standard_fit_policy(), {.unfit = "slides down"});
   EXPECT_FALSE(ended.fits);
   EXPECT_EQ(ended.reason, "slides down too far to fit");
 }

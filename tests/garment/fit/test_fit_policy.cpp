@@ -122,11 +122,11 @@ TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
   std::map<std::string, double> stouter = tent.body_girths_m;
   EXPECT_EQ(fit_garment(tent, body, skin, standard_fit_policy()).verdict, FitVerdict::TOO_LARGE);
   EXPECT_TRUE(
-      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", tent.body_girths_m).fits);
+      fit_garment(tent, body, skin, standard_fit_policy(), {.made_for = tent.body_girths_m}).fits);
   for (auto& [name, girth] : stouter)
     girth *= 1.6; // cut for a much stouter person
   const FitReport report =
-      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", stouter);
+      fit_garment(tent, body, skin, standard_fit_policy(), {.made_for = stouter});
   EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE) << report.reason;
 }
 

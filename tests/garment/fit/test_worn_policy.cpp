@@ -23,8 +23,10 @@ const body::Body& wearer() {
 
 FitReport on_its_own_body(const Garment& garment, const FitPolicy& policy) {
   const collision::BodyCollider skin(wearer().skin);
-  return fit_garment(garment, wearer(), skin, policy, &garment.position, {}, garment.body_girths_m,
-                     &garment.position);
+  return fit_garment(garment, wearer(), skin, policy,
+                     {.placed = &garment.position,
+                      .made_for = garment.body_girths_m,
+                      .source = &garment.position});
 }
 
 FitPolicy policy_for(const Garment& garment, const std::string& body_sha256 = "own") {

@@ -68,7 +68,7 @@ TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_l
   std::vector<Vec3> x = g.position;
   for (Vec3& p : x)
     p.y() = 0.8 + 1.1 * (p.y() - 0.8); // as on a longer limb, everywhere within reach of the skin
-  settle_shape(x, g.position, g.particle_triangles(), skin, 0.003);
+  settle_shape(x, {g.position, g.particle_triangles()}, skin, 0.003);
   double low = 1e300, high = -1e300;
   for (const Vec3& p : x) {
     low = std::min(low, p.y());
@@ -91,8 +91,8 @@ TEST(retarget, cloth_that_is_held_at_its_end_does_not_slide_to_its_own_length) {
   double shift[2] = {0, 0};
   for (const bool held : {false, true}) {
     std::vector<Vec3> x = placed;
-    settle_shape(x, g.position, g.particle_triangles(), skin, 0.003,
-                 held ? end : std::vector<int>());
+    settle_shape(x, {g.position, g.particle_triangles(), held ? end : std::vector<int>()}, skin,
+                 0.003);
     for (int i : end)
       shift[held] += (placed[i].y() - x[i].y()) / static_cast<double>(end.size());
   }
@@ -106,7 +106,7 @@ TEST(retarget, cloth_is_graded_as_near_to_the_skin_as_it_was_placed) {
        {std::pair{0.1495, 0.0015}, std::pair{0.147, 0.0015}, std::pair{0.156, 0.008}}) {
     const Garment g = sewn_tube(placed, 0.3, 0.6);
     std::vector<Vec3> x = g.position;
-    settle_shape(x, g.position, g.particle_triangles(), skin, 0.003);
+    settle_shape(x, {g.position, g.particle_triangles()}, skin, 0.003);
     x = as_near_as_placed(std::move(x), g.position, skin, 0.003);
     double mean = 0;
     for (const Vec3& p : x)

@@ -27,23 +27,28 @@
 
 namespace sloper::garment {
 
+/// What is known of a draped garment besides its cloth. All of it is optional.
+struct FitHistory {
+  /// Positions before the drape, #P by 3, m, from which the slip is measured.
+  const std::vector<Vec3>* placed = nullptr;
+  /// misfit_text(DrapeReport::misfit): where FitBounds ended the drape, strain and slip decide
+  /// although it is not at rest, and the answer is no.
+  std::string unfit = {};
+  /// Garment::body_girths_m of the body it was cut for: a design that was cut wide is not too large
+  /// for being wide, and one that was cut tight not too small for being tight
+  /// (FitPolicy::too_large_ease, too_small_ease).
+  std::map<std::string, double> made_for = {};
+  /// Positions of the particles on the body that the garment comes from, #P by 3, m: a girth may be
+  /// stretched as it was there (FitPolicy::too_small_strain).
+  const std::vector<Vec3>* source = nullptr;
+};
+
 /// Measures the fit of a draped garment and judges it by a policy.
 /// @param garment  draped on `body` and bound to it (bind_garment)
-/// @param placed  positions before the drape, #P by 3, m, from which the slip is
-/// measured, or nullptr
-/// @param made_for  Garment::body_girths_m of the body it was cut for, if known: a design
-/// that was cut wide is not too large for being wide, and one that was cut tight not too
-/// small for being tight (FitPolicy::too_large_ease, too_small_ease)
-/// @param source  positions of the particles on the body that the garment comes from, #P by
-/// 3, m, or nullptr: a girth may be stretched as it was there (FitPolicy::too_small_strain)
-/// @param unfit  misfit_text(DrapeReport::misfit): where FitBounds ended the drape,
-/// strain and slip decide although it is not at rest, and the answer is no
 /// @throws Error INPUT when the garment is not bound
 FitReport fit_garment(const Garment& garment, const body::Body& body,
                       const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed = nullptr, const std::string& unfit = {},
-                      const std::map<std::string, double>& made_for = {},
-                      const std::vector<Vec3>* source = nullptr);
+                      const FitHistory& history = {});
 
 /// Bounds for a drape beyond which the garment will not fit by the policy: 1.1 times the
 /// slip and 1.5 times the strain that the policy allows.

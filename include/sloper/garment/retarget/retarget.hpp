@@ -49,21 +49,25 @@ struct PlacementReport {
 /// `placement` of report.json.
 io::Json placement_json(const PlacementReport& report);
 
+/// The cloth of settle_shape().
+struct ShapeToSettle {
+  const std::vector<Vec3>& shape;         ///< #P by 3, m: at rest or nearly so
+  const std::vector<Triangle>& triangles; ///< of particles
+  std::vector<int> held = {};             ///< particles that stay near where they were placed
+  int max_rounds = 40;                    ///< of shape and contact
+};
+
 /// Restores the shape of placed cloth and moves it out of the skin: minimises the
-/// as-rigid-as-possible energy of `shape` (Sorkine and Alexa 2007) plus the squared
+/// as-rigid-as-possible energy of `cloth.shape` (Sorkine and Alexa 2007) plus the squared
 /// distance from where it was placed over 25 cm, under pushes that keep particles and
 /// faces `gap` off the skin. Quasi-static and without inertia; the drape resolves the
 /// strain that remains. About 0.1 s a round for 7,000 particles.
 /// @param positions  #P by 3, m, in and out
-/// @param shape  #P by 3, m: the cloth at rest or nearly so
-/// @param gap  m
-/// @param held  particles that are kept near where they were placed
 /// @return rounds taken; at most max_rounds, four times as many while fewer than a
 /// hundredth of the faces are still through the skin, as of a collar that was placed in a
 /// chin. The drape resolves what is left.
-int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape,
-                 const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
-                 double gap, const std::vector<int>& held = {}, int max_rounds = 40);
+int settle_shape(std::vector<Vec3>& positions, const ShapeToSettle& cloth,
+                 const collision::BodyCollider& body, double gap);
 
 /// Settled cloth at the distance from the skin that it will have once it is pressed to
 /// it: cloth that was placed within `gap` of the skin is as near as it was placed, though

@@ -318,7 +318,7 @@ void SettlePhase::let_arms_hang(SimContext& context) {
       on_arms[garment.particle_of[v]] = 1;
   const std::size_t moved = bring_under_arms(garment.position, on_arms, *context.body.body(), gap);
   if (moved > 0) {
-    settle_shape(garment.position, hung, garment.particle_triangles(), *context.body.collider(),
+    settle_shape(garment.position, {hung, garment.particle_triangles()}, *context.body.collider(),
                  gap);
     context.telemetry.add_repair(
         "arms: " + std::to_string(moved) +
