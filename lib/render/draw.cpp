@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
 
 namespace sloper::render {
 
@@ -26,6 +27,7 @@ constexpr int GROUND_RINGS = 28, GROUND_SPOKES = 56;
 constexpr double SMOOTHED_IN = 0.0006; // m, as far as smooth_cloth() moves cloth inwards
 constexpr double LINE_LIFT =
     0.0002; // m that lines lie in front of their surface, and stay behind cloth in front of it
+constexpr int ALL_BITS = 0xff; // of the stencil
 enum Kind { BODY = 0, CLOTH = 1, FLAT = 2, GROUND = 3 };
 
 void put(float* to, const Vec3& v) {
@@ -107,8 +109,8 @@ struct Renderer::Impl {
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.GenRenderbuffers(2, buffers);
-    const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT24},
-                 slots[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    const GLenum formats[] = {GL_RGBA8, GL_DEPTH24_STENCIL8},
+                 slots[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_STENCIL_ATTACHMENT};
     for (int k = 0; k < 2; ++k) {
       gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[k]);
       gl.RenderbufferStorage(GL_RENDERBUFFER, formats[k], width, height);
@@ -354,7 +356,10 @@ struct Renderer::Impl {
         0.9f * std::max(1.f, static_cast<float>(std::min(options.width, options.height)) / 1200.f));
     gl.Uniform1f(uniform(line_program, "nearer"),
                  static_cast<float>(LINE_LIFT / camera.half_depth));
+    gl.Enable(GL_STENCIL_TEST);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     for (const Part& part : parts) {
+      gl.StencilFunc(GL_ALWAYS, stencil_of(part), ALL_BITS);
       const bool ground_seen = part.kind == GROUND && camera.elevation > units::radians(2);
       if (part.kind == GROUND && !ground_seen)
         continue;
@@ -371,14 +376,36 @@ struct Renderer::Impl {
                                                     sizeof(GLuint)));
       gl.Disable(GL_BLEND);
       gl.Disable(GL_CULL_FACE);
+    }
+    draw_lines();
+    gl.Disable(GL_STENCIL_TEST);
+  }
+
+  /// The lines of each part, over itself and over what is no cloth. Where other cloth is seen they
+  /// are hidden: they lie in front of their own surface and would show through it.
+  void draw_lines() {
+    gl.UseProgram(line_program);
+    gl.BindVertexArray(line_array);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    for (const Part& part : parts) {
       if (part.n_lines == 0)
         continue;
-      gl.UseProgram(line_program);
-      gl.BindVertexArray(line_array);
-      gl.DrawElements(GL_TRIANGLES, part.n_lines, GL_UNSIGNED_INT,
-                      reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_line) *
-                                                    sizeof(GLuint)));
+      const void* first =
+          reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_line) * sizeof(GLuint));
+      std::set<GLint> seen_over = {0, stencil_of(part)};
+      for (const GLint seen : seen_over) {
+        gl.StencilFunc(GL_EQUAL, seen, ALL_BITS);
+        gl.DrawElements(GL_TRIANGLES, part.n_lines, GL_UNSIGNED_INT, first);
+      }
     }
+  }
+
+  /// Marks the pixels in which a part is seen: 0 for what is no cloth. Of more than 255 pieces some
+  /// share a mark.
+  GLint stencil_of(const Part& part) const {
+    if (part.kind == BODY || part.kind == GROUND)
+      return 0;
+    return 1 + static_cast<GLint>((&part - parts.data()) % (ALL_BITS - 1));
   }
 
   io::Image resolve(const std::vector<std::uint8_t>& pixels) const {
@@ -439,7 +466,7 @@ struct Renderer::Impl {
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LEQUAL);
     gl.ClearColor(0, 0, 0, 0);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     draw_parts(camera);
     std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(width) * height);
     gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());

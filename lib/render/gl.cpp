@@ -50,6 +50,8 @@ Gl::Gl(const Context& context) {
   find(ReadPixels, "glReadPixels");
   find(RenderbufferStorage, "glRenderbufferStorage");
   find(ShaderSource, "glShaderSource");
+  find(StencilFunc, "glStencilFunc");
+  find(StencilOp, "glStencilOp");
   find(TexImage2D, "glTexImage2D");
   find(TexParameteri, "glTexParameteri");
   find(Uniform1f, "glUniform1f");

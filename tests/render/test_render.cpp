@@ -182,8 +182,7 @@ TEST(Render, the_far_side_of_a_closed_body_is_left_out_and_never_missed) {
   EXPECT_GT(c.ssim, 0.9999);
 }
 
-TEST(Render,
-     a_seam_shows_on_its_cloth_and_not_through_cloth_that_lies_half_a_millimetre_in_front_of_it) {
+TEST(Render, a_seam_shows_on_its_cloth_and_not_through_cloth_in_front_of_it) {
   const auto sheet = [](double half, double z, bool has_seam) {
     DrawMesh mesh;
     for (const auto& [x, y] : {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 1}, {0, 1}, {1, 1}}) {
@@ -206,8 +205,10 @@ TEST(Render,
     return Renderer(meshes, options).draw(frame_scene(meshes, {}, 1)).rgba;
   };
   EXPECT_NE(drawn({sheet(0.5, 0, true)}), drawn({sheet(0.5, 0, false)}));
-  EXPECT_EQ(drawn({sheet(0.5, 0, true), sheet(0.6, 0.0005, false)}),
-            drawn({sheet(0.5, 0, false), sheet(0.6, 0.0005, false)}));
+  for (const double apart : {0.0005, 0.0001})
+    EXPECT_EQ(drawn({sheet(0.5, 0, true), sheet(0.6, apart, false)}),
+              drawn({sheet(0.5, 0, false), sheet(0.6, apart, false)}))
+        << apart;
 }
 
 TEST(Render, a_ball_throws_its_shadow_on_the_floor) {
