@@ -465,4 +465,12 @@ TEST(MeasureScan, the_abdomen_lies_above_the_groin) {
   const Body body = measure(mesh).body;
   EXPECT_GT(body.landmark("abdomen_front").y(), crotch.y() + 0.1);
   EXPECT_NEAR(body.levels.at("abdomen").girth_m, plain.levels.at("abdomen").girth_m, 0.02);
+  const auto warnings = [](const Body& measured) {
+    return std::count_if(measured.scan.findings.begin(), measured.scan.findings.end(),
+                         [](const Finding& finding) {
+                           return finding.severity == "warning" && finding.place == "abdomen_front";
+                         });
+  };
+  EXPECT_EQ(warnings(plain), 0);
+  EXPECT_EQ(warnings(body), 1) << "the groin stands out as far";
 }

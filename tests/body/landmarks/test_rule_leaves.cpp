@@ -255,7 +255,7 @@ TEST(Belly, that_competes_with_the_chest_is_told) {
   auto above_bust = [](const Body& body) {
     return body.landmark("bust_prominent_l").y() - body.landmark("bust_point_l").y();
   };
-  const Body chest = with_belly(0.04), either = with_belly(0.058), belly = with_belly(0.072);
+  const Body chest = with_belly(0.03), either = with_belly(0.058), belly = with_belly(0.13);
   EXPECT_GT(above_bust(chest), 0);
   EXPECT_FALSE(is_told(chest));
   EXPECT_TRUE(is_told(either));
