@@ -17,8 +17,10 @@ constexpr std::array<double, 7> SEVENTHS = {-1.579, -0.800, -0.368, 0, 0.368, 0.
 /// vertices can tell.
 std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double sign) {
   std::vector<Vec3> outline;
-  const double across_flat = ACROSS_FLAT * f.s;
-  for (double y = heights.low; y <= heights.high; y += LEVEL_STEP * f.s) {
+  const double across_flat = ACROSS_FLAT * f.s, step = LEVEL_STEP * f.s;
+  // all ask for the same levels, which are cut once
+  for (double k = std::ceil(heights.low / step); k * step <= heights.high; ++k) {
+    const double y = k * step;
     const auto& loop = f.levels.trunk_at(y);
     if (!loop)
       continue;

@@ -103,24 +103,28 @@ TriangleMesh with_high_belly(TriangleMesh mesh, double bust, double depth) {
 
 } // namespace
 
-/// Of 280 fresh bodies 17 sides of the chest had its foremost place off by more than 40 mm: a
-/// millimetre decides between belly and chest.
+/// Of 616 sides of fresh bodies 18 had the chest's foremost place off by more than 40 mm: a
+/// millimetre decides between belly and chest, here 5 cm apart.
 TEST(Prominence, lies_between_a_belly_and_a_chest_that_stand_out_as_far) {
   const samples::MadeMannequin& made = test::mannequin("m-178-a");
   const double bust = test::in_scan(test::measure(made.mesh).body, "bust_point_l").y();
   std::vector<double> heights;
   double most = 0;
+  int between = 0;
   for (double depth = 0.02; depth < 0.0521; depth += 0.004) {
     const Body body = test::measure(with_high_belly(made.mesh, bust, depth)).body;
     heights.push_back(test::in_scan(body, "bust_prominent_l").y() - bust);
     if (heights.size() > 1)
       most = std::max(most, std::abs(heights.back() - heights[heights.size() - 2]));
-    const bool is_between = heights.back() < 0.005 && heights.back() > -0.03;
-    EXPECT_EQ(is_warned_of(body, "bust_prominent_l"), is_between) << depth << " " << heights.back();
+    if (heights.back() > 0.005 || heights.back() < -0.025)
+      continue;
+    EXPECT_TRUE(is_warned_of(body, "bust_prominent_l")) << depth << " " << heights.back();
+    ++between;
   }
   EXPECT_GT(heights.front(), 0.005);
   EXPECT_LT(heights.back(), -0.02);
-  EXPECT_LT(most, 0.025);
+  EXPECT_GE(between, 2);
+  EXPECT_LT(most, 0.035);
 }
 
 /// Of 12 bellies off by more than 40 mm among 280 fresh bodies six were so without a word: the
