@@ -126,6 +126,24 @@ TEST(MeasureScan, labels_at_least_95_of_100_vertices_as_they_were_built) {
   }
 }
 
+/// A hand that hangs beside the thigh is the arm's to its last vertex; the nearest skin of the leg
+/// is within a hand's length of the finger tip.
+TEST(MeasureScan, a_hand_beside_the_thigh_is_arm) {
+  samples::Mannequin person = samples::preset("m-178-a");
+  person.arm_deg = 12;
+  const samples::MadeMannequin made = samples::make_mannequin(person);
+  const MeasuredScan measured = measure(made.mesh);
+  const double wrist = test::in_scan(measured.body, "wrist_l").y();
+  int hand = 0, other = 0;
+  for (std::size_t v = 0; v < made.parts.size(); ++v)
+    if ((made.parts[v] == 2 || made.parts[v] == 3) && made.mesh.positions[v].y() < wrist) {
+      ++hand;
+      other += static_cast<int>(measured.vertex_part[v]) != made.parts[v];
+    }
+  EXPECT_GT(hand, 100);
+  EXPECT_EQ(other, 0);
+}
+
 TEST(MeasureScan, turning_shifting_and_scaling_move_no_landmark_by_5_mm) {
   const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
   const Body before = measure(mesh).body;
@@ -465,4 +483,12 @@ TEST(MeasureScan, the_abdomen_lies_above_the_groin) {
   const Body body = measure(mesh).body;
   EXPECT_GT(body.landmark("abdomen_front").y(), crotch.y() + 0.1);
   EXPECT_NEAR(body.levels.at("abdomen").girth_m, plain.levels.at("abdomen").girth_m, 0.02);
+  const auto warnings = [](const Body& measured) {
+    return std::count_if(measured.scan.findings.begin(), measured.scan.findings.end(),
+                         [](const Finding& finding) {
+                           return finding.severity == "warning" && finding.place == "abdomen_front";
+                         });
+  };
+  EXPECT_EQ(warnings(plain), 0);
+  EXPECT_EQ(warnings(body), 1) << "the groin stands out as far";
 }

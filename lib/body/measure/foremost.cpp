@@ -1,6 +1,7 @@
 #include <body/measure/foremost.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sloper::body {
@@ -9,13 +10,17 @@ namespace {
 
 constexpr double LEVEL_STEP = 0.0012, ACROSS_FLAT = 0.0036; // of stature
 constexpr std::ptrdiff_t MARGIN = 4;                        // levels at an end of the heights
+/// Standard deviations: means of the seven sevenths of a normal distribution.
+constexpr std::array<double, 7> SEVENTHS = {-1.579, -0.800, -0.368, 0, 0.368, 0.800, 1.579};
 
 /// The farthest skin of each level; on a flat front the middle of what is as far out as its
 /// vertices can tell.
 std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double sign) {
   std::vector<Vec3> outline;
-  const double across_flat = ACROSS_FLAT * f.s;
-  for (double y = heights.low; y <= heights.high; y += LEVEL_STEP * f.s) {
+  const double across_flat = ACROSS_FLAT * f.s, step = LEVEL_STEP * f.s;
+  // all ask for the same levels, which are cut once
+  for (double k = std::ceil(heights.low / step); k * step <= heights.high; ++k) {
+    const double y = k * step;
     const auto& loop = f.levels.trunk_at(y);
     if (!loop)
       continue;
@@ -48,6 +53,26 @@ std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double 
   return outline;
 }
 
+/// What a quantity of standard deviation `sd` may be off by: nothing where it is known.
+std::vector<double> may_be_off_by(double sd) {
+  if (sd <= 0)
+    return {0};
+  std::vector<double> all(SEVENTHS.begin(), SEVENTHS.end());
+  for (double& off : all)
+    off *= sd;
+  return all;
+}
+
+/// Depth of an outline at height y, m; beyond its ends that of the end.
+double depth_at(const std::vector<Vec3>& points, double y) {
+  const auto above = std::lower_bound(points.begin(), points.end(), y,
+                                      [](const Vec3& p, double height) { return p.y() < height; });
+  const Vec3 &b = above == points.end() ? points.back() : *above,
+             &a = above == points.begin() ? b : *(above - 1);
+  const double t = b.y() > a.y() ? (y - a.y()) / (b.y() - a.y()) : 0;
+  return (1 - t) * a.z() + t * b.z();
+}
+
 class Outline {
 public:
   Outline(const std::vector<Vec3>& points, double sign, double flat)
@@ -71,12 +96,7 @@ public:
     }
     const Vec2 mean = sum / weight;
     place.spread_m = std::sqrt(std::max(0.0, squares / weight - mean.y() * mean.y()));
-    const auto above = std::lower_bound(m_points.begin(), m_points.end(), mean.y(),
-                                        [](const Vec3& p, double y) { return p.y() < y; });
-    const Vec3 &b = above == m_points.end() ? m_points.back() : *above,
-               &a = above == m_points.begin() ? b : *(above - 1);
-    const double t = b.y() > a.y() ? (mean.y() - a.y()) / (b.y() - a.y()) : 0;
-    place.p = Vec3(mean.x(), mean.y(), (1 - t) * a.z() + t * b.z());
+    place.p = Vec3(mean.x(), mean.y(), depth_at(m_points, mean.y()));
     return place;
   }
 
@@ -141,6 +161,21 @@ private:
   double m_sign, m_flat;
 };
 
+/// The middle of what is as far out as the farthest of the points between two heights.
+std::optional<Vec3> farthest_between(const std::vector<Vec3>& points, Span heights, double sign,
+                                     double flat) {
+  std::vector<Vec3> between;
+  for (const Vec3& p : points)
+    if (p.y() >= heights.low && p.y() <= heights.high)
+      between.push_back(p);
+  if (between.empty())
+    return std::nullopt;
+  const Outline outline(between, sign, flat);
+  const std::ptrdiff_t top = outline.farthest(0, outline.size());
+  const auto [first, last] = outline.as_far_without_a_gap(top);
+  return outline.middle(top, first, last).p;
+}
+
 } // namespace
 
 std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span across, double sign,
@@ -175,17 +210,39 @@ std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span 
   return outline.middle(inner, first, last);
 }
 
-Span as_far_if_leaning(const Finder& finder, Span heights, Span across, double sign,
-                       const Vec3& place, double flat, double lean) {
-  Span span{place.y(), place.y()};
-  for (const Vec3& p : outline_of(finder, heights, across, sign)) {
-    const double less = sign * (place.z() - p.z());
-    if (less > flat * finder.s + lean * std::abs(p.y() - place.y()))
-      continue;
-    span.low = std::min(span.low, p.y());
-    span.high = std::max(span.high, p.y());
+std::optional<Foremost> likely_foremost(const Finder& finder, Span heights, Span across,
+                                        double sign, double flat, const Doubt& doubt) {
+  const double most = SEVENTHS.back();
+  const std::vector<Vec3> points = outline_of(
+      finder, {heights.low - most * doubt.low_m, heights.high + most * doubt.high_m}, across, sign);
+  std::vector<Vec3> places;
+  for (const double lean : may_be_off_by(doubt.lean)) {
+    std::vector<Vec3> leaning = points;
+    for (Vec3& p : leaning)
+      p.z() -= (finder.levels.rise() + lean) * p.y();
+    for (const double low : may_be_off_by(doubt.low_m))
+      for (const double high : may_be_off_by(doubt.high_m)) {
+        const auto place = farthest_between(leaning, {heights.low + low, heights.high + high}, sign,
+                                            flat * finder.s);
+        if (place)
+          places.push_back(*place);
+      }
   }
-  return span;
+  if (places.empty())
+    return std::nullopt;
+  Vec3 mean = Vec3::Zero();
+  Foremost likely{mean, 0, places.front().y(), places.front().y()};
+  for (const Vec3& p : places) {
+    mean += p / static_cast<double>(places.size());
+    likely.low = std::min(likely.low, p.y());
+    likely.high = std::max(likely.high, p.y());
+  }
+  double squares = 0;
+  for (const Vec3& p : places)
+    squares += (p.y() - mean.y()) * (p.y() - mean.y());
+  likely.spread_m = std::sqrt(squares / static_cast<double>(places.size()));
+  likely.p = Vec3(mean.x(), mean.y(), depth_at(points, mean.y()));
+  return likely;
 }
 
 } // namespace sloper::body

@@ -30,11 +30,20 @@ struct Span {
 std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span across, double sign,
                                        double flat, double inside = 0.0036);
 
-/// Heights, m, of all skin that would be as far out as `place` if the body leaned by up to `lean`
-/// more: which of them is foremost is a matter of how the body stands.
-/// @param heights,across,sign,flat as of foremost_place()
-/// @param lean rad
-Span as_far_if_leaning(const Finder& finder, Span heights, Span across, double sign,
-                       const Vec3& place, double flat, double lean);
+/// What is not known where the trunk's foremost place is sought: standard deviations.
+struct Doubt {
+  double low_m, high_m; ///< of either end of the heights
+  double lean;          ///< rad, of the vertical
+};
+
+/// The mean of the foremost places over what is not known of the heights and of the vertical
+/// (normal, by seven quantiles of each), `sign` before or behind by the likeliest vertical. Where a
+/// millimetre decides between two places far apart the mean lies between them: it is never off by
+/// their whole distance, and nothing jumps.
+/// @param heights,across,sign,flat as of foremost_place(); of the heights the likeliest
+/// @return `spread_m` the standard deviation of their heights, `low` and `high` the outermost of
+/// them; nothing where there is no trunk
+std::optional<Foremost> likely_foremost(const Finder& finder, Span heights, Span across,
+                                        double sign, double flat, const Doubt& doubt);
 
 } // namespace sloper::body

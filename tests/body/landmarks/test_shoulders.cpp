@@ -3,6 +3,10 @@
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
+#include <sloper/io/scan_reader.hpp>
+
+#include <cstdlib>
+#include <filesystem>
 
 using namespace sloper;
 using namespace sloper::body;
@@ -114,4 +118,26 @@ TEST(ArmPit, of_a_hanging_arm_is_where_level_sections_join_however_far_out_the_g
   EXPECT_LT((*arm.merge - merge).norm(), 1e-9);
   EXPECT_LT((*arm.axilla - pit).norm(), 0.02);
   EXPECT_GT(arm.moved_to_merge_m, 0.1);
+}
+
+/// Two people of one template are two ways to the same anatomy: vertex k of one is vertex k of the
+/// other. Their publisher gives 38.0 and 38.2 cm between the shoulders, of which the latter is
+/// elsewhere: the man's vertices at the woman's 38.0 cm are 43.7 cm apart.
+TEST(Acromion, of_two_bodies_of_one_template_is_the_same_place) {
+  const char* shared = std::getenv("SLOPER_SHARED");
+  const auto folder = std::filesystem::path(shared ? shared : "") / "data" / "bodies" / "smpl";
+  if (!shared || !std::filesystem::exists(folder))
+    GTEST_SKIP() << "needs two bodies of one template: SLOPER_SHARED";
+  const TriangleMesh woman = io::read_scan((folder / "f_smpl_average_A40.obj").string()).mesh,
+                     man = io::read_scan((folder / "m_smpl_average_A40.obj").string()).mesh;
+  ASSERT_EQ(woman.positions.size(), man.positions.size());
+  const Body hers = test::measure(woman).body, his = test::measure(man).body;
+  for (const char* name : {"acromion_l", "acromion_r"}) {
+    const Vec3 there = test::in_scan(hers, name);
+    std::size_t nearest = 0;
+    for (std::size_t v = 0; v < woman.positions.size(); ++v)
+      if ((woman.positions[v] - there).norm() < (woman.positions[nearest] - there).norm())
+        nearest = v;
+    EXPECT_LT((man.positions[nearest] - test::in_scan(his, name)).norm(), 0.03) << name;
+  }
 }

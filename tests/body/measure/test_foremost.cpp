@@ -79,3 +79,75 @@ TEST(HandTip, is_that_of_the_middle_finger_where_another_reaches_as_far_over_the
     EXPECT_NEAR((tip - wrist).norm(), farthest, 0.002) << side;
   }
 }
+
+namespace {
+
+bool is_warned_of(const Body& body, const std::string& place) {
+  for (const Finding& finding : body.scan.findings)
+    if (finding.severity == "warning" && finding.place == place)
+      return true;
+  return false;
+}
+
+/// A chest of 1 cm at the height `bust`, m, a fold under it, and a belly of the given depth 7 cm
+/// below.
+TriangleMesh with_high_belly(TriangleMesh mesh, double bust, double depth) {
+  for (Vec3& p : mesh.positions) {
+    if (std::abs(p.x()) > 0.16 || p.z() < 0.02)
+      continue;
+    p.z() += 0.01 * std::exp(-std::pow((p.y() - bust - 0.01) / 0.015, 2)) +
+             depth * std::exp(-std::pow((p.y() - bust + 0.07) / 0.03, 2));
+  }
+  return mesh;
+}
+
+} // namespace
+
+/// Of 616 sides of fresh bodies 18 had the chest's foremost place off by more than 40 mm: a
+/// millimetre decides between belly and chest, here 5 cm apart.
+TEST(Prominence, lies_between_a_belly_and_a_chest_that_stand_out_as_far) {
+  const samples::MadeMannequin& made = test::mannequin("m-178-a");
+  const double bust = test::in_scan(test::measure(made.mesh).body, "bust_point_l").y();
+  std::vector<double> heights;
+  double most = 0;
+  int between = 0;
+  for (double depth = 0.02; depth < 0.0521; depth += 0.004) {
+    const Body body = test::measure(with_high_belly(made.mesh, bust, depth)).body;
+    heights.push_back(test::in_scan(body, "bust_prominent_l").y() - bust);
+    if (heights.size() > 1)
+      most = std::max(most, std::abs(heights.back() - heights[heights.size() - 2]));
+    if (heights.back() > 0.005 || heights.back() < -0.025)
+      continue;
+    EXPECT_TRUE(is_warned_of(body, "bust_prominent_l")) << depth << " " << heights.back();
+    ++between;
+  }
+  EXPECT_GT(heights.front(), 0.005);
+  EXPECT_LT(heights.back(), -0.02);
+  EXPECT_GE(between, 2);
+  EXPECT_LT(most, 0.035);
+}
+
+/// Of 12 bellies off by more than 40 mm among 280 fresh bodies six were so without a word: the
+/// waist, which is where a belly that runs on into the chest ends, is off by 8 mm.
+TEST(FlatBelly, is_told_of_where_the_waist_decides_between_belly_and_chest) {
+  const samples::MadeMannequin& made = test::mannequin("m-178-a");
+  const Body plain = test::measure(made.mesh).body;
+  const double waist = plain.levels.at("waist_semantic").y, belly = waist - 0.11;
+  EXPECT_FALSE(is_warned_of(plain, "abdomen_front"));
+  double depth = 0;
+  for (const Vec3& p : made.mesh.positions)
+    if (std::abs(p.y() - waist) < 0.1 && std::abs(p.x()) < 0.15)
+      depth = std::max(depth, p.z());
+  TriangleMesh mesh =
+      made.mesh; // a belly, a hollow above it, and a slope that is as far out at the waist
+  for (Vec3& p : mesh.positions) {
+    const double up = p.y() - belly;
+    if (p.z() < 0.02 || std::abs(p.x()) > 0.12 || up < -0.1 || up > 0.15)
+      continue;
+    const double front = up < 0.06 ? depth + 0.03 - 4 * up * up
+                                   : depth + 0.03 - 4 * 0.06 * 0.06 + 0.25 * (up - 0.06);
+    p.z() = std::max(p.z(), front - 5 * p.x() * p.x());
+  }
+  const Body body = test::measure(mesh).body;
+  EXPECT_TRUE(is_warned_of(body, "abdomen_front"));
+}

@@ -184,14 +184,15 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
       back = std::min(back, p.z());
     }
   for (const bool both : {false, true}) { // the hem rises to the front, where it leaves a fifth of
-                                          // the level bare; or to front and back
+                                          // the level bare; or to front and back, by a row of
+                                          // triangles, wherever between two rows the level is
     const double middle = 0.5 * (front + back);
     std::vector<Triangle> faces;
     for (const Triangle& t : whole.panels.triangles) {
       const Vec3 p = (whole.position[t[0]] + whole.position[t[1]] + whole.position[t[2]]) / 3;
       const double z = both ? middle + std::abs(p.z() - middle) : p.z();
       if (std::abs(p.x()) > 0.25 ||
-          p.y() > level + 0.3 * (z - front + (both ? 0.01 : 0.1) * (front - back)))
+          p.y() > level + 0.3 * (z - front + (both ? -0.02 : 0.1) * (front - back)))
         faces.push_back(t);
     }
     const Dressed d = dressed(body, sheet(whole.position, faces, 0));

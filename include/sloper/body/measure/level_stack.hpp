@@ -57,6 +57,9 @@ public:
   /// are never apart.
   std::optional<double> crotch() const { return m_crotch; }
   Vec2 crotch_point() const { return m_crotch_point; } ///< (x, z) where they meet
+  /// Rise of what is level by the likeliest vertical, `up` of the constructor, per length
+  /// backwards.
+  double rise() const { return m_rise; }
   /// A place before or behind that is as low as the crotch within the uncertainty of the
   /// vertical: either may be the crotch. Empty where there is none.
   const std::optional<Vec3>& other_crotch() const { return m_other_crotch; }
