@@ -413,4 +413,21 @@ std::vector<MissingSeam> missing_seams(const Pattern& pattern) {
   return Search(pattern).run();
 }
 
+std::vector<std::vector<int>> sewn_parts(const Pattern& pattern) {
+  DisjointSets joined(pattern.panels.size());
+  for (const Seam& seam : pattern.seams)
+    for (const auto* side : {&seam.a, &seam.b})
+      for (const Run& run : *side)
+        joined.unite(seam.a[0].panel, run.panel);
+  std::map<int, std::vector<int>> groups;
+  for (int p = 0; p < std::ssize(pattern.panels); ++p)
+    groups[joined.find(p)].push_back(p);
+  std::vector<std::vector<int>> out;
+  for (auto& [root, panels] : groups)
+    out.push_back(std::move(panels));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return out;
+}
+
 } // namespace sloper::pattern

@@ -24,4 +24,7 @@ struct MissingSeam {
 /// In pattern order.
 std::vector<MissingSeam> missing_seams(const Pattern& pattern);
 
+/// Panels that seams join, by index: of the largest group first, then of the others.
+std::vector<std::vector<int>> sewn_parts(const Pattern& pattern);
+
 } // namespace sloper::pattern
