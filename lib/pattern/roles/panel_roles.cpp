@@ -1,5 +1,6 @@
 #include <pattern/panel_words.hpp>
 #include <pattern/roles/leg_roles.hpp>
+#include <pattern/roles/limb_ends.hpp>
 #include <pattern/roles/panel_roles.hpp>
 #include <pattern/roles/panel_turn.hpp>
 #include <pattern/roles/ring_roles.hpp>
@@ -241,7 +242,8 @@ private:
         unnamed.push_back(k);
     if (unnamed.empty() || m_pattern.seams.empty())
       return;
-    const std::vector<ShapeRole> shapes = shape_roles(m_pattern);
+    std::vector<ShapeRole> shapes = shape_roles(m_pattern);
+    const std::vector<bool> leg_end = follow_limbs(m_mesh, m_graph, shapes);
     double faces = 0; // for and against the shapes' front and back
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (says_back(m_words[k]) || name_suggests_front(m_words[k]))
