@@ -234,8 +234,8 @@ private:
     }
   }
 
-  /// Notches of two whole edges sewn to each other should meet: those of the longer list that have
-  /// no partner within 1 cm are told.
+  /// Notches of two whole edges sewn to each other should meet. A notch of the longer list without
+  /// a partner within 1 cm is a finding.
   void check_notches(const Seam& seam) {
     if (seam.a.size() != 1 || seam.b.size() != 1 || seam.kind == "gather" || !seam.ease.empty())
       return;

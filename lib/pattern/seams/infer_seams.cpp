@@ -23,7 +23,7 @@ constexpr double CERTAIN = 4.6, WORTH_ASKING = -1, WORTH_A_WORD = -4;
 constexpr double LIKELY = 0.5;       // probability: rather sewn than not
 constexpr double GATHERED = 0.08;    // logarithm of lengths
 constexpr double SAME_LENGTH = 0.03; // logarithm: the two sides of a sleeve's seam
-// Log-odds. The model learned from sleeves of two pieces; those of CAD files are mostly of one.
+// Log-odds. The model learned from sleeves of two pieces; sleeves of CAD files mostly have one.
 constexpr double SLEEVE_CLOSES = 6;
 constexpr double SAME_NAME = 5, OTHER_NAME = -1.5, UNLIKELY = -4; // log-odds
 
