@@ -103,4 +103,7 @@ EOF
   run 0 "$program" --edge-length 0.05 --body a.body.json -o out.json open.json
   says "is one sewn to the other?"
   grep -q '"pattern.half-sewn"' out.json || fail "no finding"
+  "$(dirname "$program")/drape" -q --body a.body.json --panels out.json --accuracy draft --set max_steps=5 \
+    --report open.report.json -o worn.json || true # 5 steps are too few
+  grep -q '"pattern.half-sewn"' open.report.json || fail "the drape does not say so"
 }
