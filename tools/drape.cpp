@@ -17,6 +17,7 @@
 #include <sloper/pattern/mesh/folds.hpp>
 #include <sloper/pattern/panel_mesh_json.hpp>
 
+#include <algorithm>
 #include <iostream>
 
 using namespace sloper;
@@ -66,13 +67,24 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
   return job;
 }
 
-/// What pattern-mesh found too short for the body that the panels were placed around.
-std::vector<Message> tight_rings(const garment::Garment& garment) {
+/// What pattern-mesh found under one of some ids.
+std::vector<Message> found_before(const garment::Garment& garment,
+                                  std::initializer_list<std::string_view> ids) {
   std::vector<Message> out;
   for (const Message& finding : garment.panels.findings)
-    if (finding.id == "placement.too-tight"_id.text())
+    if (std::find(ids.begin(), ids.end(), finding.id) != ids.end())
       out.push_back(finding);
   return out;
+}
+
+/// What is too short for the body that the panels were placed around.
+std::vector<Message> tight_rings(const garment::Garment& garment) {
+  return found_before(garment, {"placement.too-tight"_id.text()});
+}
+
+/// What a user who reads the report alone has to know of the panels.
+std::vector<Message> faults_of_panels(const garment::Garment& garment) {
+  return found_before(garment, {"placement.too-tight"_id.text(), "pattern.half-sewn"_id.text()});
 }
 
 /// What may be the reason, for the end of a sentence.
@@ -258,7 +270,7 @@ int run(cli::Tool& tool, Options& o) {
     garment.body_sha256 = skin;
     inputs.push_back(garment::input_entry(o.body));
   }
-  for (const Message& finding : tight_rings(garment))
+  for (const Message& finding : faults_of_panels(garment))
     findings.push_back(finding);
   for (const Message& finding : findings)
     tool.reporter().warning(finding);

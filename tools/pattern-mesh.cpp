@@ -8,6 +8,7 @@
 #include <sloper/pattern/edit/edits.hpp>
 #include <sloper/pattern/edit/shoulder_folds.hpp>
 #include <sloper/pattern/measure/finished_measures.hpp>
+#include <sloper/pattern/measure/half_sewn.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/panel_mesh_json.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
@@ -17,6 +18,7 @@
 #include <sloper/pattern/seams/piece_versions.hpp>
 #include <sloper/pattern/write/export_pattern.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 
@@ -39,18 +41,24 @@ struct Options {
 int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& o) {
   io::Json document = io::new_document("pattern-findings", 1, tool.name());
   document["findings"] = io::Json::array();
-  bool bad = false, sewable = true;
-  const std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
+  std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
+  // What is metres too large takes minutes to measure.
+  const bool sewable = std::none_of(findings.begin(), findings.end(), [](const auto& f) {
+    return pattern::forbids_sewing(f) || f.rule == "wrong-unit";
+  });
+  pattern::FinishedMeasures measures;
+  if (sewable) {
+    measures = pattern::finished_measures(source, o.pattern);
+    findings.insert(findings.end(), measures.half_sewn.begin(), measures.half_sewn.end());
+  }
+  bool bad = false;
   for (const pattern::PatternFinding& f : findings) {
     std::cout << f.severity << ": " << f.rule << ": " << f.place << ": " << f.fact << '\n';
     document["findings"].push_back(
         {{"severity", f.severity}, {"rule", f.rule}, {"place", f.place}, {"fact", f.fact}});
     bad = bad || f.severity == "error";
-    sewable = sewable && !pattern::forbids_sewing(f) &&
-              f.rule != "wrong-unit"; // what is metres too large takes minutes to measure
   }
   if (sewable) { // what the finished garment measures
-    const pattern::FinishedMeasures measures = pattern::finished_measures(source, o.pattern);
     for (const pattern::NamedMeasure& m : measures.named)
       std::cout << "measure: " << m.name << ' ' << pattern::centimetres(m.value) << " (" << m.how
                 << ")\n";
@@ -68,6 +76,26 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
     io::write_json(o.output,
                    sarif ? pattern::findings_sarif(findings, o.pattern, tool.name()) : document);
   return bad ? 1 : 0;
+}
+
+/// Findings of a pattern that can be sewn nevertheless, into the mesh and as warnings.
+void tell_faults(cli::Tool& tool, const pattern::Pattern& source, pattern::PanelMesh& mesh) {
+  std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
+  const std::vector<pattern::PatternFinding> open = pattern::half_sewn(source, mesh);
+  findings.insert(findings.end(), open.begin(), open.end());
+  for (const pattern::PatternFinding& f : findings) {
+    // A pattern of our own may hold pieces of their own; the other formats are of one garment.
+    const bool unsewn = f.rule == "unsewn-panel" && f.severity == "warning" &&
+                        !source.seams.empty() && source.source_format != "pattern";
+    if (f.severity != "error" && !unsewn)
+      continue;
+    const bool half = unsewn || f.rule == "loose-part" || f.rule == "half-sewn";
+    const Message message = half
+                                ? Message{"pattern.half-sewn"_id, f.place + ": " + f.fact}
+                                : Message{"pattern.sewn-despite-fault"_id, f.place + ": " + f.fact};
+    mesh.findings.push_back(message);
+    tool.reporter().warning(message);
+  }
 }
 
 /// The pattern as read (and edited), in the format of the file name's ending.
@@ -187,12 +215,7 @@ int run(cli::Tool& tool, const Options& o) {
   }
   if (!o.write_pattern.empty())
     write_pattern(tool, source, o.write_pattern);
-  for (const pattern::PatternFinding& f : pattern::check_pattern(source)) {
-    if (f.severity != "error")
-      continue; // of those that can be sewn nevertheless
-    mesh.findings.push_back({"pattern.sewn-despite-fault"_id, f.place + ": " + f.fact});
-    tool.reporter().warning(mesh.findings.back());
-  }
+  tell_faults(tool, source, mesh);
   std::vector<std::string> impossible;
   if (o.body.empty())
     pattern::lay_flat(source, mesh);

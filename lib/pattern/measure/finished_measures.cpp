@@ -1,6 +1,8 @@
+#include <pattern/measure/cloth_rims.hpp>
 #include <sloper/geometry/disjoint_sets.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/measure/finished_measures.hpp>
+#include <sloper/pattern/measure/half_sewn.hpp>
 #include <sloper/pattern/mesh/folds.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 
@@ -30,21 +32,6 @@ double coarse_for(const Pattern& pattern) {
     edge = std::min(edge, PER_PIECE * (high - low).maxCoeff());
   }
   return std::max(edge, FINEST);
-}
-
-/// The edge of a panel nearest to a point of its outline.
-std::string edge_at(const Panel& panel, const Vec2& p) {
-  double least = 1e300;
-  std::string name;
-  for (int e = 0; e < panel.n_edges(); ++e) {
-    const ArcLength arc(panel.edge(e).path);
-    for (int k = 0; k <= 64; ++k)
-      if (const double d = (arc.at(arc.length() * k / 64) - p).norm(); d < least - 1e-9) {
-        least = d;
-        name = panel.edge(e).name;
-      }
-  }
-  return name;
 }
 
 std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) {
@@ -81,7 +68,7 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
     const Vec2 &a = mesh.pattern[side.a], &b = mesh.pattern[side.b];
     found[id].length += (a - b).norm();
     found[id].rim.push_back({side.a, side.b});
-    names[id][side.panel].insert(edge_at(pattern.panels[side.panel], 0.5 * (a + b)));
+    names[id][side.panel].insert(edge_nearest_to(pattern.panels[side.panel], 0.5 * (a + b)));
   }
   std::vector<Opening> out;
   for (auto& [id, opening] : found) {
@@ -101,6 +88,7 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
   const PanelMesh mesh = mesh_pattern(pattern, coarse_for(pattern), file);
   FinishedMeasures out;
   out.openings = openings_of(pattern, mesh);
+  out.half_sewn = half_sewn(pattern, mesh);
   TrunkMeasures trunk = measure_trunk(pattern, mesh, out.openings);
   out.named = std::move(trunk.named);
   out.around = std::move(trunk.around);

@@ -234,8 +234,8 @@ private:
     }
   }
 
-  /// Notches of two whole edges sewn to each other should meet: those of the longer list that have
-  /// no partner within 1 cm are told.
+  /// Notches of two whole edges sewn to each other should meet. A notch of the longer list without
+  /// a partner within 1 cm is a finding.
   void check_notches(const Seam& seam) {
     if (seam.a.size() != 1 || seam.b.size() != 1 || seam.kind == "gather" || !seam.ease.empty())
       return;
@@ -338,6 +338,23 @@ private:
       if (!sewn[k])
         add(m_pattern.panels.size() == 1 ? "info" : "warning", "unsewn-panel",
             m_pattern.panels[k].name, "nothing is sewn to this panel");
+    check_parts();
+  }
+
+  /// Several panels that are sewn to each other and not to the garment, as a waistband may be.
+  void check_parts() {
+    const std::vector<std::vector<int>> parts = sewn_parts(m_pattern);
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+      if (parts[k].size() < 2)
+        continue;
+      std::string others;
+      for (std::size_t q = 1; q < parts[k].size(); ++q)
+        others += (q > 1 ? ", " : "") + m_pattern.panels[parts[k][q]].name;
+      // A pattern of our own may hold two garments; the other formats are of one.
+      add(m_pattern.source_format == "pattern" ? "warning" : "error", "loose-part",
+          m_pattern.panels[parts[k][0]].name,
+          "is sewn to " + others + " and to nothing else of the garment: which edge joins them?");
+    }
   }
 
   const Pattern m_pattern;
@@ -376,7 +393,7 @@ io::Json findings_sarif(const std::vector<PatternFinding>& findings, const std::
 
 bool forbids_sewing(const PatternFinding& f) {
   return f.severity == "error" && f.rule != "length-mismatch" && f.rule != "wrong-unit" &&
-         f.rule != "open-seam" && f.rule != "unsewn-panel";
+         f.rule != "open-seam" && f.rule != "unsewn-panel" && f.rule != "loose-part";
 }
 
 void require_sewable(const Pattern& pattern, const std::string& file) {

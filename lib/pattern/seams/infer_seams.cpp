@@ -1,10 +1,10 @@
 #include <pattern/panel_words.hpp>
+#include <pattern/seams/missing_seams.hpp>
 #include <pattern/seams/rim_seams.hpp>
 #include <pattern/seams/seam_assembly.hpp>
 #include <pattern/seams/seam_order.hpp>
 #include <pattern/seams/whole_garment.hpp>
 #include <sloper/base/units.hpp>
-#include <sloper/geometry/disjoint_sets.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/seams/infer_seams.hpp>
 
@@ -23,7 +23,7 @@ constexpr double CERTAIN = 4.6, WORTH_ASKING = -1, WORTH_A_WORD = -4;
 constexpr double LIKELY = 0.5;       // probability: rather sewn than not
 constexpr double GATHERED = 0.08;    // logarithm of lengths
 constexpr double SAME_LENGTH = 0.03; // logarithm: the two sides of a sleeve's seam
-// Log-odds. The model learned from sleeves of two pieces; those of CAD files are mostly of one.
+// Log-odds. The model learned from sleeves of two pieces; sleeves of CAD files mostly have one.
 constexpr double SLEEVE_CLOSES = 6;
 constexpr double SAME_NAME = 5, OTHER_NAME = -1.5, UNLIKELY = -4; // log-odds
 
@@ -306,19 +306,14 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
 }
 
 std::vector<std::string> panels_apart(const Pattern& pattern) {
-  DisjointSets joined(pattern.panels.size());
-  for (const Seam& seam : pattern.seams)
-    for (const auto* side : {&seam.a, &seam.b})
-      for (const Run& run : *side)
-        joined.unite(seam.a[0].panel, run.panel);
-  std::map<int, int> size;
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-    ++size[joined.find(static_cast<int>(p))];
-  const auto most = std::max_element(
-      size.begin(), size.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const std::vector<std::vector<int>> parts = sewn_parts(pattern);
+  std::vector<char> apart(pattern.panels.size(), 0);
+  for (std::size_t k = 1; k < parts.size(); ++k)
+    for (const int p : parts[k])
+      apart[p] = 1;
   std::vector<std::string> out;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-    if (joined.find(static_cast<int>(p)) != most->first)
+    if (apart[p])
       out.push_back(pattern.panels[p].name);
   return out;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double SAME_PLACE = 0.003;               // m along an edge
 constexpr double ALIKE = 0.003, ALIKE_PART = 0.01; // m and of the length: mirrored edges differ by
                                                    // no more than the greater of them
-constexpr double CENTRED = 0.005;                  // m: holes lie like those of the other half
+constexpr double CENTRED = 0.005;                  // m: holes lie as in the other half
 constexpr double SHORTEST_GAP = 0.03; // m: what is shorter may be a vent, a buttonhole or a loop
 constexpr double CLOSES =
     290 * units::PI /
@@ -273,7 +273,7 @@ private:
     return {};
   }
 
-  /// The other half of each panel: the one that its name tells, else itself, else the only one that
+  /// The other half of each panel: the one with its name, else itself, else the only one that
   /// it can be.
   void find_mirrors() {
     const int n = std::ssize(m_pattern.panels);
@@ -383,7 +383,7 @@ private:
         const std::vector<Run>& runs = s ? seam.b : seam.a;
         const Run& run = end ? runs.back() : runs.front();
         ends[s] = {end ? side[s].back() : side[s].front(),
-                   (run.from < run.to) != end}; // an image runs the other way round
+                   (run.from < run.to) != end}; // an image runs in the opposite direction
       }
       if (goes_on_sewn(ends))
         return;
@@ -411,6 +411,23 @@ private:
 
 std::vector<MissingSeam> missing_seams(const Pattern& pattern) {
   return Search(pattern).run();
+}
+
+std::vector<std::vector<int>> sewn_parts(const Pattern& pattern) {
+  DisjointSets joined(pattern.panels.size());
+  for (const Seam& seam : pattern.seams)
+    for (const auto* side : {&seam.a, &seam.b})
+      for (const Run& run : *side)
+        joined.unite(seam.a[0].panel, run.panel);
+  std::map<int, std::vector<int>> groups;
+  for (int p = 0; p < std::ssize(pattern.panels); ++p)
+    groups[joined.find(p)].push_back(p);
+  std::vector<std::vector<int>> out;
+  for (auto& [root, panels] : groups)
+    out.push_back(std::move(panels));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return out;
 }
 
 } // namespace sloper::pattern

@@ -1,4 +1,5 @@
 #include <pattern/seams/seam_assembly.hpp>
+#include <sloper/base/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ constexpr double SEWN_AT_ALL = 0.5; // expected seams of a side whose partners a
 // the others are settled again.
 constexpr double REFUSED = -0.5, KEPT = 1;
 constexpr int ROUNDS = 3;
+constexpr std::size_t PAIRS_AT_A_TIME = 256; // of one thread
 
 } // namespace
 
@@ -62,14 +64,26 @@ SeamAssembly::Settled SeamAssembly::settle(const SeamTrees& trees, const SeamWit
   for (std::size_t pass = 0; pass < m_n; ++pass) {
     std::vector<double> now = out.odds;
     std::vector<std::pair<double, SidePair>> open;
-    for (const Pair& pair : m_pairs) {
-      const double before = out.odds[at(pair.i, pair.j)];
-      if (before <= NEVER || out.at.count({pair.i, pair.j}))
+    std::vector<double> looked(m_pairs.size(), NEVER);
+    const auto is_open = [&](const Pair& pair) {
+      return out.odds[at(pair.i, pair.j)] > NEVER && !out.at.count({pair.i, pair.j});
+    };
+    parallel_for(m_pairs.size(), PAIRS_AT_A_TIME, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) {
+        const Pair& pair = m_pairs[p];
+        if (!is_open(pair))
+          continue;
+        Evidence evidence = pair.evidence;
+        m_witness.second_look(static_cast<std::size_t>(pair.i), static_cast<std::size_t>(pair.j),
+                              odds, evidence);
+        looked[p] = trees(evidence) + prior(pair.i, pair.j);
+      }
+    });
+    for (std::size_t p = 0; p < m_pairs.size(); ++p) {
+      const Pair& pair = m_pairs[p];
+      const double own = looked[p];
+      if (!is_open(pair))
         continue;
-      Evidence evidence = pair.evidence;
-      m_witness.second_look(static_cast<std::size_t>(pair.i), static_cast<std::size_t>(pair.j),
-                            odds, evidence);
-      const double own = trees(evidence) + prior(pair.i, pair.j);
       now[at(pair.i, pair.j)] = now[at(pair.j, pair.i)] = own;
       if (own > WORTH_A_LOOK)
         open.push_back({-own, {pair.i, pair.j}});

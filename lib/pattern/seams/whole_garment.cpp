@@ -79,7 +79,7 @@ private:
     return count;
   }
 
-  /// Two pairs whose four sides are sewn the other way about, where that leaves fewer handles: a
+  /// Two pairs that exchange their partners, where that leaves fewer handles: a
   /// cuff that was twisted.
   void exchange() {
     int left = handles(m_pairs);
@@ -137,7 +137,7 @@ private:
     return static_cast<int>(
         std::count_if(all.begin(), all.end(), [](const auto& rim) { return !rim.empty(); }));
   }
-  /// Two pairs whose sides, sewn the other way about, leave one rim instead of two: a collar that
+  /// Two pairs that leave one rim instead of two once they exchange partners: a collar that
   /// was made a tube in front and another one behind.
   bool merge_rims() {
     const OpenRims now = sewn();

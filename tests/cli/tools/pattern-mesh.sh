@@ -88,3 +88,22 @@ EOF
   says "front_l: side: is not sewn to back_l: side, though it seems to belong there"
   grep -q "is not sewn to back_l: side" out.json || fail "no finding"
 }
+
+case_what_is_half_sewn_is_told_by_the_check_and_with_the_mesh() {
+  # Both sides of the skirt hang open: each half looks like the other.
+  python3 - skirt.pattern.json > open.json << 'EOF'
+import json, sys
+document = json.load(open(sys.argv[1]))
+document["seams"] = [s for s in document["seams"] if ".side" not in s["name"]]
+print(json.dumps(document))
+EOF
+  run 0 "$program" --check skirt.pattern.json
+  run 1 "$program" --check open.json
+  grep -q 'error: half-sewn: front_l: side_hip: is open over .* cm and back_l: side_hip' stdout || fail "not told"
+  run 0 "$program" --edge-length 0.05 --body a.body.json -o out.json open.json
+  says "is one sewn to the other?"
+  grep -q '"pattern.half-sewn"' out.json || fail "no finding"
+  "$(dirname "$program")/drape" -q --body a.body.json --panels out.json --accuracy draft --set max_steps=5 \
+    --report open.report.json -o worn.json || true # 5 steps are too few
+  grep -q '"pattern.half-sewn"' open.report.json || fail "the drape does not say so"
+}

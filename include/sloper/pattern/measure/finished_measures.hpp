@@ -5,6 +5,7 @@
 #include <sloper/io/json_fwd.hpp>
 #include <sloper/pattern/panel_mesh.hpp>
 #include <sloper/pattern/pattern.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
 
 namespace sloper::pattern {
 
@@ -31,7 +32,8 @@ struct FinishedMeasures {
   /// Every 5 cm: m below the garment's top along the cloth, and m of cloth around the
   /// trunk there.
   std::vector<std::array<double, 2>> around;
-  double cloth_m2 = 0; ///< area of all panels inside their sew lines
+  double cloth_m2 = 0;                   ///< area of all panels inside their sew lines
+  std::vector<PatternFinding> half_sewn; ///< see half_sewn()
 };
 
 /// Meshes the pattern coarsely and measures it.
