@@ -392,8 +392,7 @@ struct Renderer::Impl {
         continue;
       const void* first =
           reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_line) * sizeof(GLuint));
-      std::set<GLint> seen_over = {0, stencil_of(part)};
-      for (const GLint seen : seen_over) {
+      for (const GLint seen : std::set<GLint>{0, stencil_of(part)}) {
         gl.StencilFunc(GL_EQUAL, seen, ALL_BITS);
         gl.DrawElements(GL_TRIANGLES, part.n_lines, GL_UNSIGNED_INT, first);
       }
