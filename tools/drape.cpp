@@ -12,6 +12,7 @@
 #include <sloper/garment/material_json.hpp>
 #include <sloper/garment/redrape/spread.hpp>
 #include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/scene/scene_folds.hpp>
 #include <sloper/garment/simulate/checkpoint.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/mesh/folds.hpp>
@@ -259,6 +260,9 @@ int run(cli::Tool& tool, Options& o) {
     inputs.push_back(garment::input_entry(o.body));
   }
   for (const Message& finding : tight_rings(garment))
+    findings.push_back(finding);
+  for (const Message& finding :
+       garment::mesh_along_folds(garment, o.body.empty() ? nullptr : &body, skin, o.scene))
     findings.push_back(finding);
   for (const Message& finding : findings)
     tool.reporter().warning(finding);
