@@ -6,6 +6,7 @@
 #include <sloper/collision/skin_cache.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/drape/drape_job.hpp>
+#include <sloper/garment/drape/judge_roll_lines.hpp>
 #include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/garment_json.hpp>
 #include <sloper/garment/inputs.hpp>
@@ -199,7 +200,9 @@ int resume(cli::Tool& tool, const Options& o) {
   garment::DrapeOutcome outcome =
       garment::resume_job(job, checkpoint, {garment, under}, o.body.empty() ? nullptr : &body,
                           std::cout, tool.reporter());
-  return write_out(tool, o, garment, under, body, outcome, inputs, {});
+  std::vector<Message> findings;
+  garment::judge_roll_lines(garment, outcome, o.from, findings, tool.reporter());
+  return write_out(tool, o, garment, under, body, outcome, inputs, findings);
 }
 
 int run(cli::Tool& tool, Options& o) {
@@ -275,9 +278,11 @@ int run(cli::Tool& tool, Options& o) {
       o.redrapes > 0 ? redrape(tool, o, garment, dressed, settings)
                      : garment::do_drape(job_of(tool, o, scene, settings), {garment, layers},
                                          dressed, settings, std::cout, tool.reporter());
-  if (!o.untangle_only)
+  if (!o.untangle_only) {
     garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before,
                            findings, tool.reporter());
+    garment::judge_roll_lines(garment, outcome, source, findings, tool.reporter());
+  }
   return write_out(tool, o, garment, layers, body, outcome, inputs, findings);
 }
 

@@ -413,3 +413,36 @@ END
   sed 's/"from": \[0.06, 0.06\]/"from": [0.06, 1]/' roll.json > off.json
   run 3 "$program" -q --accuracy draft --scene off.json --body a.body.json --panels s.panels.json -o s.json
 }
+
+# A roll line of the pattern that turns a part of a collar. Sewn on a coarse mesh first the collar stood, with exit status 0.
+case_a_collar_that_the_coarse_mesh_leaves_standing_is_sewn_on_the_given_one() {
+  local makers
+  makers=$(dirname "${program%/*}")/samples
+  run 0 "$makers/make-pattern" -q shirt --body a.body.json -o s.pattern.json
+  python3 - << 'END'
+import json
+
+pattern = json.load(open("s.pattern.json"))
+collar = next(panel for panel in pattern["panels"] if panel["name"] == "collar")
+edges = {edge["edge"]: edge["path"] for edge in collar["outline"]}
+corner, curve = edges["low"]
+low = [corner[1:], curve[1:3], curve[3:5], curve[5:7]]
+corner, curve = edges["free"]
+free = [curve[5:7], curve[3:5], curve[1:3], corner[1:]]
+a, b, c, d = [[p + 0.3 * (q - p) for p, q in zip(*ends)] for ends in zip(low, free)]
+collar["lines"] = [{"name": "roll", "kind": "roll", "path": [["M"] + a, ["C"] + b + c + d]}]
+json.dump(pattern, open("s.pattern.json", "w"))
+END
+  run 0 "${program%/*}/pattern-mesh" -q --body a.body.json --edge-length 0.02 -o s.panels.json s.pattern.json
+  local status=0
+  "$program" -q --accuracy draft --body a.body.json --panels s.panels.json --report r.json -o s.json || status=$?
+  python3 - "$status" << 'END' || fail "the collar stands, and nothing says so"
+import json, sys
+
+report = json.load(open("r.json"))
+(line,) = report["roll_lines"]
+assert (sys.argv[1] == "0") == report["converged"], report["stop_reason"]
+assert line["turned_share"] > 0.25, line
+assert report["levels"]["meshes"] == 1, report["levels"]
+END
+}
