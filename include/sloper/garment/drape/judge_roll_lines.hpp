@@ -1,6 +1,6 @@
 #pragma once
 /// Whether a drape turned collars and lapels over as their pattern says.
-/// Test: tests/garment/levels/test_turned_leaves.cpp, tests/cli/tools/drape.sh
+/// Test: tests/cli/tools/drape.sh
 #include <sloper/garment/drape/drape_job.hpp>
 
 #include <string>
