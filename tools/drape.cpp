@@ -6,12 +6,14 @@
 #include <sloper/collision/skin_cache.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/drape/drape_job.hpp>
+#include <sloper/garment/drape/judge_roll_lines.hpp>
 #include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/garment_json.hpp>
 #include <sloper/garment/inputs.hpp>
 #include <sloper/garment/material_json.hpp>
 #include <sloper/garment/redrape/spread.hpp>
 #include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/scene/scene_folds.hpp>
 #include <sloper/garment/simulate/checkpoint.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/mesh/folds.hpp>
@@ -210,7 +212,9 @@ int resume(cli::Tool& tool, const Options& o) {
   garment::DrapeOutcome outcome =
       garment::resume_job(job, checkpoint, {garment, under}, o.body.empty() ? nullptr : &body,
                           std::cout, tool.reporter());
-  return write_out(tool, o, garment, under, body, outcome, inputs, {});
+  std::vector<Message> findings;
+  garment::judge_roll_lines(garment, outcome, o.from, findings, tool.reporter());
+  return write_out(tool, o, garment, under, body, outcome, inputs, findings);
 }
 
 int run(cli::Tool& tool, Options& o) {
@@ -272,6 +276,9 @@ int run(cli::Tool& tool, Options& o) {
   }
   for (const Message& finding : faults_of_panels(garment))
     findings.push_back(finding);
+  for (const Message& finding :
+       garment::mesh_along_folds(garment, o.body.empty() ? nullptr : &body, skin, o.scene))
+    findings.push_back(finding);
   for (const Message& finding : findings)
     tool.reporter().warning(finding);
   if (!o.motion.empty())
@@ -283,9 +290,11 @@ int run(cli::Tool& tool, Options& o) {
       o.redrapes > 0 ? redrape(tool, o, garment, dressed, settings)
                      : garment::do_drape(job_of(tool, o, scene, settings), {garment, layers},
                                          dressed, settings, std::cout, tool.reporter());
-  if (!o.untangle_only)
+  if (!o.untangle_only) {
     garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before,
                            findings, tool.reporter());
+    garment::judge_roll_lines(garment, outcome, source, findings, tool.reporter());
+  }
   return write_out(tool, o, garment, layers, body, outcome, inputs, findings);
 }
 

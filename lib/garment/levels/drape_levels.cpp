@@ -2,6 +2,7 @@
 #include <garment/levels/drape_levels.hpp>
 #include <garment/simulate/session.hpp>
 #include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/simulate/roll_line_states.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -52,9 +53,7 @@ public:
     DrapeReport report = climb();
     if (!ended(report)) {
       m_at.before = report;
-      sew_on_given_mesh(report.converged || report.stop_reason == StopReason::AT_REST_UNCLEAN
-                            ? "cloth of the coarse mesh still crossed"
-                            : "cloth of the coarse mesh did not come to rest");
+      sew_on_given_mesh(why_not(report));
       report = climb();
     }
     if (report.stop_reason == StopReason::AT_REST && !m_at.on_given_mesh &&
@@ -141,7 +140,18 @@ private:
     const bool interrupted = report.stop_reason == StopReason::INTERRUPTED ||
                              report.stop_reason == StopReason::TIME_LIMIT;
     return m_at.on_given_mesh || interrupted || report.misfit != Misfit::NONE ||
-           (report.converged && is_clean(report));
+           (report.converged && is_clean(report) && standing().empty());
+  }
+
+  std::string standing() const { return standing_text(roll_line_states(m_garment)); }
+
+  /// Why cloth of the coarse mesh is not kept.
+  std::string why_not(const DrapeReport& report) const {
+    const bool at_rest = report.converged || report.stop_reason == StopReason::AT_REST_UNCLEAN;
+    if (!at_rest)
+      return "cloth of the coarse mesh did not come to rest";
+    const std::string stands = standing();
+    return stands.empty() ? "cloth of the coarse mesh still crossed" : stands;
   }
 
   using Clock = std::chrono::steady_clock;

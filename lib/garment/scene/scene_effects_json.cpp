@@ -15,6 +15,7 @@ constexpr double DEGREE = units::PI / 180;
 /// A collar folded over to its outside and pressed: nearly back on itself, held there by its seams
 /// and pressing as by a cord. A crease's angle has the other sign.
 constexpr double ROLL_ANGLE = 165, ROLL_FIRMNESS = 30;
+constexpr double SAME_PLACE = 1e-6; // in (s, t)
 
 double in_range(const Node& node, const char* key, double fallback, double low, double high) {
   if (!node.has(key))
@@ -61,6 +62,28 @@ PanelRun read_run(const Node& node) {
     run.to = read_place(node.at("to"));
   }
   return run;
+}
+
+/// A crease or roll line but for its angle.
+SceneCrease read_fold(const Node& node, double firmness) {
+  node.allow_only({"panel", "from", "to", "via", "angle_deg", "firmness"});
+  SceneCrease crease;
+  crease.run = read_run(node);
+  crease.firmness = in_range(node, "firmness", firmness, 1, 1000);
+  Vec2 before = crease.run.from;
+  const auto go_to = [&](const Node& at, const Vec2& place) {
+    if ((place - before).norm() < SAME_PLACE)
+      at.fail("scene.bad-effect"_id, "is the place before it again", "give places that differ");
+    before = place;
+  };
+  if (node.has("via"))
+    for (std::size_t k = 0; k < node.at("via").size(); ++k) {
+      const Node at = node.at("via").at(k);
+      crease.via.push_back(read_place(at));
+      go_to(at, crease.via.back());
+    }
+  go_to(node.at("to"), crease.run.to);
+  return crease;
 }
 
 Json run_json(const PanelRun& run) {
@@ -146,14 +169,15 @@ SceneEffects read_scene_effects(const Node& node) {
     return s;
   });
   read_list(node, "creases", scene.creases, [](const Node& n) {
-    n.allow_only({"panel", "from", "to", "angle_deg", "firmness"});
-    return SceneCrease{read_run(n), in_range(n, "angle_deg", 0, -175, 175) * DEGREE,
-                       in_range(n, "firmness", 1, 1, 1000)};
+    SceneCrease crease = read_fold(n, 1);
+    crease.angle_rad = in_range(n, "angle_deg", 0, -175, 175) * DEGREE;
+    return crease;
   });
   read_list(node, "roll_lines", scene.creases, [](const Node& n) {
-    n.allow_only({"panel", "from", "to", "angle_deg", "firmness"});
-    return SceneCrease{read_run(n), -in_range(n, "angle_deg", ROLL_ANGLE, -175, 175) * DEGREE,
-                       in_range(n, "firmness", ROLL_FIRMNESS, 1, 1000)};
+    SceneCrease crease = read_fold(n, ROLL_FIRMNESS);
+    crease.angle_rad = -in_range(n, "angle_deg", ROLL_ANGLE, -175, 175) * DEGREE;
+    crease.turns = true;
+    return crease;
   });
   read_list(node, "closures", scene.closures, [](const Node& n) {
     n.allow_only({"kind", "panel", "from", "to", "with", "count", "stiffness_n_m"});
@@ -230,6 +254,8 @@ Json scene_effects_json(const SceneEffects& scene) {
     j["angle_deg"] = crease.angle_rad / DEGREE;
     if (crease.firmness != 1)
       j["firmness"] = crease.firmness;
+    for (const Vec2& place : crease.via)
+      j["via"].push_back(io::to_json(place));
     return j;
   });
   write_list(out, "weights", scene.weights, [](const SceneWeight& weight) {

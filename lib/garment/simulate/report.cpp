@@ -50,6 +50,7 @@ std::string stop_text(const DrapeReport& report) {
   case StopReason::AT_REST_AFTER_UNCLEAN_FRAMES:
     return unclean_frames_text(report.quality["motion"]);
   case StopReason::AT_REST_STRETCHED: return "at rest, but stretched by " + report.stop_detail;
+  case StopReason::AT_REST_UNTURNED: return "at rest, but " + report.stop_detail;
   case StopReason::STEP_LIMIT: return "step limit";
   case StopReason::TIME_LIMIT: return "time limit";
   case StopReason::INTERRUPTED: return "stopped by the user";

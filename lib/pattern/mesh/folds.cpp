@@ -95,25 +95,6 @@ Path halfway(const Path& a, const Path& b) {
   return {Segment::straight(at(0), at(1))};
 }
 
-/// Which vertices of a panel lie on a line, by their place in the panel.
-std::vector<char> vertices_on(const Path& line, const PanelMesh& mesh, const PanelInfo& info) {
-  const ArcLength arc(line);
-  const int n = static_cast<int>(std::max(16.0, std::min(2000.0, arc.length() / 0.001)));
-  std::vector<Vec2> points;
-  for (int k = 0; k <= n; ++k)
-    points.push_back(arc.at(arc.length() * k / n));
-  std::vector<char> on(static_cast<std::size_t>(info.n_vertices), 0);
-  for (std::size_t v = 0; v < on.size(); ++v) {
-    const Vec2& x = mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v];
-    for (std::size_t i = 0; i + 1 < points.size() && !on[v]; ++i) {
-      const Vec2 d = points[i + 1] - points[i];
-      const double s = std::clamp((x - points[i]).dot(d) / d.squaredNorm(), 0.0, 1.0);
-      on[v] = (x - points[i] - s * d).norm() < LINE_ON_EDGE;
-    }
-  }
-  return on;
-}
-
 /// A leaf turned over on its seam: a mirror image without stretch, across the seam's chord.
 void turn_over_whole(const Panel& panel, const PanelMesh& mesh, const PanelInfo& info,
                      Folding& out) {
@@ -312,6 +293,35 @@ bool turned_whole(const Panel& panel) {
   return true;
 }
 
+std::vector<std::array<int, 2>> edges_along(const PanelMesh& mesh, const PanelInfo& panel,
+                                            const Path& path) {
+  const ArcLength arc(path);
+  const int n = static_cast<int>(std::max(16.0, std::min(2000.0, arc.length() / 0.001)));
+  std::vector<Vec2> points;
+  for (int k = 0; k <= n; ++k)
+    points.push_back(arc.at(arc.length() * k / n));
+  std::vector<char> on(static_cast<std::size_t>(panel.n_vertices), 0);
+  for (std::size_t v = 0; v < on.size(); ++v) {
+    const Vec2& x = mesh.pattern[static_cast<std::size_t>(panel.first_vertex) + v];
+    for (std::size_t i = 0; i + 1 < points.size() && !on[v]; ++i) {
+      const Vec2 d = points[i + 1] - points[i];
+      const double s = std::clamp((x - points[i]).dot(d) / d.squaredNorm(), 0.0, 1.0);
+      on[v] = (x - points[i] - s * d).norm() < LINE_ON_EDGE;
+    }
+  }
+  std::vector<std::array<int, 2>> out;
+  for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle& t = mesh.triangles[f];
+      const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
+      if (on[a - panel.first_vertex] && on[b - panel.first_vertex])
+        out.push_back({a, b});
+    }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh) {
   std::vector<std::array<int, 2>> out;
   for (std::size_t p = 0;
@@ -327,14 +337,8 @@ std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh) {
       lines.push_back(halfway(lines.back(), panel.lines[pleat.target].path));
     }
     for (const Path& line : lines) {
-      const std::vector<char> on = vertices_on(line, mesh, info);
-      for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
-        for (std::size_t k = 0; k < 3; ++k) {
-          const Triangle& t = mesh.triangles[f];
-          const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
-          if (on[a - info.first_vertex] && on[b - info.first_vertex])
-            out.push_back({a, b});
-        }
+      const std::vector<std::array<int, 2>> edges = edges_along(mesh, info, line);
+      out.insert(out.end(), edges.begin(), edges.end());
     }
   }
   std::sort(out.begin(), out.end());

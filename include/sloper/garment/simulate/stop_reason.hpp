@@ -13,6 +13,8 @@ enum class StopReason {
   AT_REST_AFTER_UNCLEAN_FRAMES, ///< the same in earlier frames of a motion
   /// At rest, but stretched beyond what the fabric bears: see DrapeReport::stop_detail.
   AT_REST_STRETCHED,
+  /// At rest, but a roll line is not turned over: see DrapeReport::stop_detail.
+  AT_REST_UNTURNED,
   STEP_LIMIT,       ///< DrapeSettings::max_steps
   TIME_LIMIT,       ///< DrapeSettings::max_seconds
   INTERRUPTED,      ///< the user asked for it

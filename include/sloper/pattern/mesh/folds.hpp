@@ -43,6 +43,11 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh);
 /// Whether all of a panel is turned over, as a collar's leaf whose roll line is its seam.
 bool turned_whole(const Panel& panel);
 
+/// Edges of a mesh along a path, as vertex pairs in rising order. Cost: vertices of the panel times
+/// millimetres of the path.
+std::vector<std::array<int, 2>> edges_along(const PanelMesh& mesh, const PanelInfo& panel,
+                                            const Path& path);
+
 /// Edges of a mesh along which it is folded, as vertex pairs in rising order: on the folds of its
 /// pleats and the lines halfway to their targets, and on roll lines. Empty where no panel has any,
 /// or the mesh does not know its pattern. Cost: lines times vertices.

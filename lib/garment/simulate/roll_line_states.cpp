@@ -1,0 +1,224 @@
+#include <sloper/base/units.hpp>
+#include <sloper/garment/simulate/roll_line_states.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double REACH = 0.02;           // m before the line, in the pattern
+constexpr double TURNED = units::PI / 3; // a collar that lies out on the shoulders is turned over
+constexpr double STANDING = 0.25; // below: collars left standing had 0 to 0.13, jackets 0.4 or more
+constexpr double MOSTLY = 0.5; // a lapel stands at its narrow end, and rolls softly near its line
+constexpr int SAMPLES = 200;   // of a line, to know which way it runs
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// The turn of one triangle beyond the line.
+struct Turn {
+  double angle, weight; ///< rad, and area times distance from the line, m3
+};
+
+/// An edge of the mesh along the line, and how the cloth goes that comes to it.
+struct LineEdge {
+  Vec2 middle, left; ///< in the pattern, m: its middle, and the unit normal to the turned side
+  Vec3 along, to, outside; ///< on the body, unit: of the edge, across it, and out of the cloth
+};
+
+/// One roll line on the cloth.
+class RolledLine {
+public:
+  RolledLine(const Garment& garment, const std::vector<Triangle>& triangles,
+             const pattern::PanelInfo& panel, const pattern::Path& path)
+      : m_garment(garment), m_triangles(triangles), m_panel(panel) {
+    const pattern::ArcLength arc(path);
+    for (int k = 0; k <= SAMPLES; ++k) {
+      m_points.push_back(arc.at(arc.length() * k / SAMPLES));
+      m_tangents.push_back(arc.tangent(arc.length() * k / SAMPLES));
+    }
+    for (const std::array<int, 2>& edge : pattern::edges_along(garment.panels, panel, path))
+      add(edge);
+    measure();
+  }
+  const std::vector<Turn>& turns() const { return m_turns; }
+
+private:
+  const Vec2& flat(int v) const { return m_garment.panels.pattern[v]; }
+  const Vec3& hung(std::size_t f, std::size_t k) const {
+    return m_garment.position[m_triangles[f][k]];
+  }
+  Vec3 normal(std::size_t f) const {
+    return (hung(f, 1) - hung(f, 0)).cross(hung(f, 2) - hung(f, 0));
+  }
+  Vec2 middle(int f) const {
+    const Triangle& t = m_garment.panels.triangles[f];
+    return (flat(t[0]) + flat(t[1]) + flat(t[2])) / 3;
+  }
+  double area(int f) const {
+    const Triangle& t = m_garment.panels.triangles[f];
+    return 0.5 * cross(flat(t[1]) - flat(t[0]), flat(t[2]) - flat(t[0]));
+  }
+
+  /// Where a direction of the pattern goes on the body, in a triangle of the panel.
+  Vec3 carried(int f, const Vec2& direction) const {
+    const Triangle& t = m_garment.panels.triangles[f];
+    const Vec2 a = flat(t[1]) - flat(t[0]), b = flat(t[2]) - flat(t[0]);
+    return (cross(direction, b) * (hung(f, 1) - hung(f, 0)) +
+            cross(a, direction) * (hung(f, 2) - hung(f, 0))) /
+           cross(a, b);
+  }
+
+  Vec2 tangent_near(const Vec2& p) const {
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < m_points.size(); ++k)
+      if ((m_points[k] - p).squaredNorm() < (m_points[nearest] - p).squaredNorm())
+        nearest = k;
+    return m_tangents[nearest];
+  }
+
+  void add(const std::array<int, 2>& edge) {
+    const auto& x = m_garment.position;
+    const Vec3 &a = x[m_garment.particle_of[edge[0]]], &b = x[m_garment.particle_of[edge[1]]];
+    LineEdge out;
+    out.middle = 0.5 * (flat(edge[0]) + flat(edge[1]));
+    const Vec2 tangent = tangent_near(out.middle);
+    out.left = Vec2(-tangent.y(), tangent.x());
+    out.along = (b - a).normalized();
+    Vec3 to = Vec3::Zero(), outside = Vec3::Zero();
+    for (int f = m_panel.first_triangle; f < m_panel.first_triangle + m_panel.n_triangles; ++f) {
+      const Vec2 at = middle(f) - out.middle;
+      const Triangle& t = m_garment.panels.triangles[f];
+      const bool has_edge = std::count(t.begin(), t.end(), edge[0]) > 0 &&
+                            std::count(t.begin(), t.end(), edge[1]) > 0;
+      if (at.dot(out.left) > 0 || (!has_edge && at.norm() > REACH))
+        continue;
+      to += area(f) * carried(f, out.left);
+      outside += normal(f);
+    }
+    if (to.isZero())
+      add_sewn(edge, 0.5 * (a + b), to, outside);
+    if (to.isZero())
+      return;
+    to -= to.dot(out.along) * out.along;
+    out.to = to.normalized();
+    outside -= outside.dot(out.along) * out.along + outside.dot(out.to) * out.to;
+    out.outside = outside.normalized();
+    m_edges.push_back(out);
+  }
+
+  /// Adds cloth of other panels at an edge whose middle is there.
+  void add_sewn(const std::array<int, 2>& edge, const Vec3& there, Vec3& to, Vec3& outside) const {
+    for (std::size_t f = 0; f < m_triangles.size(); ++f) {
+      const int own = static_cast<int>(f) - m_panel.first_triangle;
+      const Triangle& t = m_triangles[f];
+      const bool meets = std::any_of(edge.begin(), edge.end(), [&](int v) {
+        return std::count(t.begin(), t.end(), m_garment.particle_of[v]) > 0;
+      });
+      const bool is_own = own >= 0 && own < m_panel.n_triangles;
+      if (!meets || is_own)
+        continue;
+      to += there - (hung(f, 0) + hung(f, 1) + hung(f, 2)) / 3;
+      outside += normal(f);
+    }
+  }
+
+  void measure() {
+    for (int f = m_panel.first_triangle;
+         !m_edges.empty() && f < m_panel.first_triangle + m_panel.n_triangles; ++f) {
+      const Vec2 at = middle(f);
+      const LineEdge& edge = *std::min_element(
+          m_edges.begin(), m_edges.end(), [&](const LineEdge& a, const LineEdge& b) {
+            return (a.middle - at).squaredNorm() < (b.middle - at).squaredNorm();
+          });
+      const double beyond = (at - edge.middle).dot(edge.left);
+      if (beyond <= 0)
+        continue;
+      const Vec3 on = carried(f, edge.left);
+      const double angle = std::atan2(std::abs(on.dot(edge.outside)), on.dot(edge.to));
+      m_turns.push_back({angle, beyond * area(f)});
+    }
+  }
+
+  const Garment& m_garment;
+  const std::vector<Triangle>& m_triangles;
+  const pattern::PanelInfo& m_panel;
+  std::vector<Vec2> m_points, m_tangents;
+  std::vector<LineEdge> m_edges;
+  std::vector<Turn> m_turns;
+};
+
+RollLineState state_of(std::vector<Turn> turns) {
+  std::sort(turns.begin(), turns.end(),
+            [](const Turn& a, const Turn& b) { return a.angle < b.angle; });
+  double all = 0, turned = 0;
+  for (const Turn& t : turns) {
+    all += t.weight;
+    turned += t.angle > TURNED ? t.weight : 0;
+  }
+  RollLineState out;
+  out.turned_share = turned / all;
+  out.turn = turns[turns.size() / 2].angle;
+  return out;
+}
+
+} // namespace
+
+bool RollLineState::is_turned() const {
+  return turned_share >= MOSTLY;
+}
+bool RollLineState::stands() const {
+  return turned_share < STANDING;
+}
+
+std::vector<RollLineState> roll_line_states(const Garment& garment) {
+  std::vector<RollLineState> out;
+  const pattern::PanelMesh& panels = garment.panels;
+  const bool knows = panels.source && panels.source->panels.size() == panels.panels.size() &&
+                     garment.particle_of.size() == panels.pattern.size();
+  if (!knows)
+    return out;
+  const std::vector<Triangle> triangles = garment.particle_triangles();
+  for (std::size_t p = 0; p < panels.panels.size(); ++p)
+    for (const pattern::InnerLine& line : panels.source->panels[p].lines) {
+      if (line.kind != "roll")
+        continue;
+      const RolledLine rolled(garment, triangles, panels.panels[p], line.path);
+      if (rolled.turns().empty())
+        continue;
+      out.push_back(state_of(rolled.turns()));
+      out.back().panel = panels.panels[p].name;
+      out.back().line = line.name;
+    }
+  return out;
+}
+
+io::Json roll_lines_json(const std::vector<RollLineState>& states) {
+  io::Json out = io::Json::array();
+  for (const RollLineState& state : states)
+    out.push_back({{"panel", state.panel},
+                   {"line", state.line},
+                   {"turned", state.is_turned()},
+                   {"turned_share", state.turned_share},
+                   {"turn_deg", units::degrees(state.turn)}});
+  return out;
+}
+
+std::string turned_text(const RollLineState& state) {
+  return "roll line " + state.line + " of panel " + state.panel + " turned over " +
+         std::to_string(std::lround(100 * state.turned_share)) + " % of what lies beyond it";
+}
+
+std::string standing_text(const std::vector<RollLineState>& states) {
+  for (const RollLineState& state : states)
+    if (state.stands())
+      return turned_text(state);
+  return "";
+}
+
+} // namespace sloper::garment
