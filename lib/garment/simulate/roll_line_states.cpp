@@ -12,9 +12,12 @@ namespace {
 
 constexpr double REACH = 0.02;           // m before the line, in the pattern
 constexpr double TURNED = units::PI / 3; // a collar that lies out on the shoulders is turned over
-constexpr double STANDING = 0.25; // below: collars left standing had 0 to 0.13, jackets 0.4 or more
-constexpr double MOSTLY = 0.5; // a lapel stands at its narrow end, and rolls softly near its line
-constexpr int SAMPLES = 200;   // of a line, to know which way it runs
+// Shares of the leaf that is turned. Chosen on twelve shirt collars of 3 to 7 cm and one jacket,
+// with none kept back: what was left standing had 0 to 0.13; a lapel of the jacket, which stands at
+// its narrow end and rolls softly near its line, 0.64.
+constexpr double STANDING = 0.25; // below: the line did not turn
+constexpr double MOSTLY = 0.5;    // below: it turned in part, which is told
+constexpr int SAMPLES = 200;      // of a line, to know which way it runs
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
