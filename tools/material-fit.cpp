@@ -1,4 +1,5 @@
 /// material-fit: cheap tests of a fabric to a material that drape takes.
+#include <sloper/base/text.hpp>
 #include <sloper/cli/run_tool.hpp>
 #include <sloper/garment/drapemeter/material_fit.hpp>
 #include <sloper/garment/drapemeter/silhouette.hpp>
@@ -88,6 +89,21 @@ std::vector<double> numbers(const char* option, const std::vector<std::string>& 
   return out;
 }
 
+// A share of 1 is at most 1; the folds of cloth that falls straight down stand out further than 5
+// %.
+constexpr double LEAST_DRAPE_PERCENT = 5;
+
+/// A share of 1 taken for per cent would be a fabric without any stiffness.
+double drape_coefficient(double percent) {
+  if (percent > 0 && percent < LEAST_DRAPE_PERCENT) {
+    const std::string meant =
+        percent <= 1 ? ": " + decimals(100 * percent, 0) + "?" : ", from 5 to 100";
+    throw input_error("drapemeter.out-of-range"_id, "", "--drape-percent " + decimals(percent, 2),
+                      "is less than any cloth drapes to", "give it in per cent" + meant);
+  }
+  return 0.01 * percent;
+}
+
 garment::FabricTests tests_of(const Options& o) {
   garment::FabricTests tests;
   tests.base = garment::material_from(o.preset);
@@ -109,7 +125,7 @@ garment::FabricTests tests_of(const Options& o) {
   }
   tests.length_error_m = 1e-3 * o.ruler;
   for (double percent : numbers("--drape-percent", o.drape_percent))
-    tests.coefficient.push_back(0.01 * percent);
+    tests.coefficient.push_back(drape_coefficient(percent));
   for (double folds : numbers("--folds", o.folds))
     tests.folds.push_back(static_cast<int>(std::lround(folds)));
   tests.setup.disc_radius_m = 0.5e-3 * o.disc;

@@ -1,6 +1,7 @@
 #include <garment/kes.hpp>
 #include <garment/measurements.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/cloth/bending_plates.hpp>
 #include <sloper/garment/materials.hpp>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::garment {
 
@@ -16,6 +18,19 @@ namespace {
 constexpr double FULL_LOAD = 500;   // gf/cm: end of the KES-F1 tensile test
 constexpr double WEARING_LOAD = 50; // N/m
 constexpr double FAST_SHEAR = 123;  // N/m times per cent: De Boos and Tester 1994
+
+// What any cloth weighs, as material-fit has it: silk gauze has some 10 g/m2, felt of a centimetre
+// and coated canvas have less than 5 kg/m2.
+constexpr double LEAST_WEIGHT = 0.005, MOST_WEIGHT = 5; // kg/m2
+// What any sheet that is sewn bends by: a B of 0.001 gf cm2/cm, ten times less than the limpest
+// knits, and leather of 3 mm (a modulus of 50 MPa gives 50e6 0.003^3 / 12).
+constexpr double LEAST_RIGIDITY = 1e-8, MOST_RIGIDITY = 0.1; // N m
+// Beyond these a number without a unit was hardly in the unit of KES-F. The heaviest cloth of
+// clothes, for winter coats, has some 900 g/m2.
+constexpr double MOST_WORN_WEIGHT = 1; // kg/m2
+// Bending lengths, (B / (W g))^(1/3): those of the presets of fabrics are 11 to 31 mm. A unit that
+// is wrong by a hundred changes them 4.6 times.
+constexpr double LEAST_WORN_LENGTH = 0.005, MOST_WORN_LENGTH = 0.05; // m
 
 /// B from bending lengths, where it was not measured itself: W g C^3, with C = L / 2 of an
 /// overhang.
@@ -35,6 +50,51 @@ void bend_by_lengths(Values& values) {
   if (!bias_was_measured && b.bias > 0 && b.warp > 0 && b.weft > 0)
     b.bias = std::max(cloth::bias_of_strip(b.warp, b.weft, b.bias),
                       cloth::least_bias_rigidity(b.warp, b.weft));
+}
+
+std::string newton_metres(double rigidity) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3g N m", rigidity);
+  return text;
+}
+
+void refuse_value(const std::string& file, const Value& v, const std::string& fact,
+                  bool unit_is_meant) {
+  if (unit_is_meant && !v.without_unit.empty())
+    throw input_error("kes.unit-needed"_id, file, v.without_unit, fact + " in the unit of KES-F",
+                      "add a unit: the same value is taken with it");
+  if (!unit_is_meant)
+    throw input_error("kes.malformed"_id, file, v.place, fact + ", which no cloth has",
+                      v.without_unit.empty() ? "check value and unit" : "add a unit");
+}
+
+/// Refuses a weight and a rigidity that no cloth has, and those that cloth of clothes does not have
+/// where their unit was not said. @param values  with B from bending lengths
+void refuse_unlikely(const std::string& file, Values& values) {
+  const Value& w = values["W"];
+  const double weight = w.mean();
+  const std::string weighs = "the weight W is " + decimals(1e3 * weight, 1) + " g/m2";
+  if (weight < LEAST_WEIGHT || weight > MOST_WEIGHT)
+    refuse_value(file, w, weighs, false);
+  if (weight > MOST_WORN_WEIGHT)
+    refuse_value(file, w, weighs, true);
+  const char* measured = "L";
+  for (const char* property : {"C", "B"})
+    if (!values[property].place.empty())
+      measured = property;
+  const Value& b = values["B"];
+  const Value& given = values[measured];
+  for (const double rigidity : {b.warp, b.weft, b.bias}) {
+    if (!(rigidity > 0))
+      continue;
+    const double length = std::cbrt(rigidity / (weight * units::GRAVITY));
+    const std::string bends = "the bending rigidity is " + newton_metres(rigidity) +
+                              ", a bending length of " + millimetres(length);
+    if (rigidity < LEAST_RIGIDITY || rigidity > MOST_RIGIDITY)
+      refuse_value(file, given, bends, false);
+    if (length < LEAST_WORN_LENGTH || length > MOST_WORN_LENGTH)
+      refuse_value(file, given, bends, true);
+  }
 }
 
 /// Rigidities by direction, where what was measured differs.
@@ -79,6 +139,7 @@ double stretch(double emt, double lt, const Values& values, double Value::*direc
 Material read_kes(const std::string& path) {
   auto [file, chosen, place, values] = read_measurements(path);
   bend_by_lengths(values);
+  refuse_unlikely(file, values);
   Material m;
   m.name = chosen.empty() ? io::file_name(file) : chosen;
   m.density_kg_m2 = values["W"].mean();

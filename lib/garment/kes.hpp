@@ -32,7 +32,8 @@ namespace sloper::garment {
 
 /// @param path  the file, with `#NAME` behind it to pick one fabric of several
 /// @throws Error INPUT with line and column: not a number, a column, property or unit that is not
-///   known, one that is there twice, no bending or no weight, a value no cloth has
+///   known, one that is there twice, no bending or no weight, a value no cloth has, or one without
+///   a unit that no cloth of clothes has in the unit of KES-F
 Material read_kes(const std::string& path);
 
 } // namespace sloper::garment

@@ -330,6 +330,13 @@ private:
       v.weft = si;
   }
 
+  static void note_place(Value& v, const std::string& place, const std::string& unit) {
+    if (v.place.empty())
+      v.place = place;
+    if (unit.empty() && v.without_unit.empty())
+      v.without_unit = place;
+  }
+
   /// One property per row.
   Values of_properties(const std::string& wanted) const {
     if (!wanted.empty())
@@ -364,10 +371,11 @@ private:
   void put_cell(int line, const std::string& column, const std::string& cell,
                 const std::string& property, const std::string& unit, Value& value) const {
     const char direction = direction_of(lower(column));
-    if (direction != ' ')
+    if (direction != ' ') {
       put(value, direction,
           number(column_text(line, column), cell) * factor(line_text(line), property, unit));
-    else if (lower(column) != "unit" && !column.empty() && column[0] != '#' && is_number(cell))
+      note_place(value, line_text(line) + ", property \"" + property + "\"", unit);
+    } else if (lower(column) != "unit" && !column.empty() && column[0] != '#' && is_number(cell))
       throw unknown(m_rows.front().line, "column \"" + column + "\" is not known",
                     "known are unit, warp, weft, bias, mean, value; a name that begins with # is "
                     "passed over");
@@ -401,11 +409,12 @@ private:
         const Heading h = heading(header[c]);
         if (cell.empty() || (h.direction == 'm') != mean)
           continue;
-        if (known(h.property))
+        if (known(h.property)) {
           put(out[h.property], h.direction,
               number(column_text(found->line, header[c]), cell) *
                   factor(column_text(m_rows.front().line, header[c]), h.property, h.unit));
-        else if (!is_unused(h.property) && is_number(cell))
+          note_place(out[h.property], column_text(found->line, header[c]), h.unit);
+        } else if (!is_unused(h.property) && is_number(cell))
           throw unknown_property(m_rows.front().line, "column", h, header[c]);
       }
     return out;

@@ -13,7 +13,9 @@ inline constexpr double GF_CM = 0.980665; ///< 1 gf/cm in N/m
 /// One measured property, SI; NaN where it was not given. Mean values fill both directions.
 struct Value {
   double warp = NAN, weft = NAN;
-  double bias = NAN; ///< at 45 degrees, where it was given as such
+  double bias = NAN;        ///< at 45 degrees, where it was given as such
+  std::string place;        ///< line and column that it stands in first, for messages
+  std::string without_unit; ///< the same of the first one whose unit is not said; else empty
   double mean() const {
     if (std::isnan(warp))
       return weft;

@@ -116,8 +116,8 @@ TEST(Kes, what_is_wrong_is_named_with_its_line) {
         {"fabric,W,B\npoplin,12,1,0,09\n", "line 2", "has 5 cells, the header 3"},
         {"property,unit,warp,weft\nW,g/m2,0,0\nB,uN.m,9,7\n", "lines 1 to 3", "is 0"},
         {LONG + "LT,,2,2\n", "lines 1 to 4", "the linearity (LT) is 2 or more"},
-        {"property,unit,warp,weft\nW,kg/m2,121,121\nB,uN.m,9,7\n", "property W",
-         "density_kg_m2 of 121"}, // g/m2 were meant
+        {"property,unit,warp,weft\nW,kg/m2,121,121\nB,uN.m,9,7\n", "line 2, property \"W\"",
+         "the weight W is 121000.0 g/m2, which no cloth has"}, // g/m2 were meant
         {"property,unit,warp,weft,bias\nW,g/m2,121,121,\nB,uN.m,9,1,0.1\n", "lines 1 to 3",
          "the bias bends more easily"},
         {"\x01\x02W,B\n1,2\n", "line 1", "is not text"}}) {
@@ -127,6 +127,36 @@ TEST(Kes, what_is_wrong_is_named_with_its_line) {
   }
   EXPECT_NE(refusal("fabric,W,B\na,12,0.1\na,13,0.2\n", "#a").find("twice"), std::string::npos);
   EXPECT_NE(refusal(LONG, "#poplin").find("a property per row"), std::string::npos);
+}
+
+TEST(Kes, a_number_without_a_unit_that_is_not_in_the_unit_of_kes_is_refused) {
+  for (const auto& [text, place, fact] :
+       {std::tuple{"fabric,W,B-1,B-2\npoplin,121,0.09,0.07\n", "line 2, column \"W\"",
+                   "the weight W is 1210.0 g/m2"},
+        {"property,warp,weft\nW,121,121\nB,0.09,0.07\n", "line 2, property \"W\"",
+         "the weight W is 1210.0 g/m2"},
+        {"fabric,W,B-1,B-2\npoplin,12.1,9,7\n", "line 2, column \"B-1\"",
+         "the bending rigidity is 0.000883 N m, a bending length of 90.6 mm"}, // uN m
+        {"fabric,W [g/m2],B-1 [uN.m],B-2\npoplin,121,9,7\n", "line 2, column \"B-2\"",
+         "the bending rigidity is 0.000686 N m"},
+        {"fabric,W [g/m2],L\npoplin,121,4.2\n", "line 2, column \"L\"",
+         "a bending length of 2.1 mm"}}) { // cm
+    const std::string message = refusal(text);
+    EXPECT_EQ(message.rfind(place, 0), 0u) << message << "\n" << text;
+    EXPECT_NE(message.find(fact), std::string::npos) << message << "\n" << text;
+    EXPECT_NE(message.find("add a unit"), std::string::npos) << message << "\n" << text;
+  }
+  EXPECT_NE(refusal("fabric,W,B\npoplin,0.121,0.09\n").find("W is 1.2 g/m2, which no cloth has"),
+            std::string::npos); // kg/m2
+  EXPECT_NE(refusal("fabric,W [g/m2],B [N.m]\npoplin,121,9\n").find("9 N m"), std::string::npos);
+}
+
+TEST(Kes, what_few_fabrics_have_is_taken_with_its_unit) {
+  const Material heavy = read("fabric,W [mg/cm2],B [gf.cm2/cm]\nfelt,121,9\n");
+  EXPECT_NEAR(heavy.density_kg_m2, 1.21, 1e-12);
+  EXPECT_NEAR(heavy.bend_n_m, 9 * 9.80665e-5, 1e-12);
+  for (const char* usual : {"gauze,1.2,0.002", "jersey,16,0.01", "canvas,35,1.0", "coating,90,0.8"})
+    EXPECT_EQ(refusal(std::string("fabric,W,B\n") + usual + "\n"), "") << usual;
 }
 
 TEST(Kes, other_measured_values_texts_and_columns_with_a_hash_are_passed_over) {

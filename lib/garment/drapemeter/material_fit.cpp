@@ -1,5 +1,6 @@
 #include <sloper/base/error.hpp>
 #include <sloper/base/parallel.hpp>
+#include <sloper/base/text.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/cloth/bending_plates.hpp>
 #include <sloper/garment/drapemeter/material_fit.hpp>
@@ -313,15 +314,25 @@ void combine(MaterialFit& fit) {
   fit.material = with_bending(fit.material, fit.mean->value);
 }
 
+constexpr double STRIP_LENGTH = 0.2;     // m: of the test, material-fit(1)
+constexpr double LEAST_OVERHANG = 0.005; // m
+
+void check_overhang(double length) {
+  if (length > LEAST_OVERHANG && length <= STRIP_LENGTH)
+    return;
+  const bool is_long = length > STRIP_LENGTH;
+  throw input_error("drapemeter.out-of-range"_id, "", "overhang of " + millimetres(length),
+                    is_long ? "is longer than the strip of 200 mm" : "is that of no cloth",
+                    "give what hangs over the edge, in mm, from 5 to 200");
+}
+
 void check(const FabricTests& tests) {
   if (!(tests.base.density_kg_m2 > 0.005) || tests.base.density_kg_m2 > 5)
     throw input_error("drapemeter.out-of-range"_id, "", "weight", "is that of no cloth",
                       "give it in g/m2, from 5 to 5000");
   for (const auto& lengths : tests.overhang_m)
-    for (double l : lengths)
-      if (!(l > 0.005) || l > 1)
-        throw input_error("drapemeter.out-of-range"_id, "", "overhang", "is that of no cloth",
-                          "give it in mm, from 5 to 1000");
+    for (const double length : lengths)
+      check_overhang(length);
   for (double c : tests.coefficient)
     if (!(c > 0) || c > 1)
       throw input_error("drapemeter.out-of-range"_id, "", "drape coefficient", "is out of range",

@@ -290,6 +290,21 @@ std::vector<char> cloth_of(const Garment& garment, const FitPlace& place) {
   return use;
 }
 
+const std::vector<std::string>& fit_row_names() {
+  static const std::vector<std::string> NAMES = {
+      "bust",      "chest_axilla", "underbust", "omphalion", "waist_semantic",  "waist_girth_min",
+      "abdomen",   "hip",          "crotch",    "neck",      "waist_width_min", "hip_girth_max",
+      "neck_base", "neck_edge",    "top_edge",  "upper_arm", "wrist",           "sleeve_hem",
+      "thigh",     "knee",         "calf",      "ankle_min", "leg_hem"};
+  return NAMES;
+}
+
+bool has_sides(const std::string& row) {
+  static const std::vector<std::string> LIMBS = {"upper_arm", "wrist", "sleeve_hem", "thigh",
+                                                 "knee",      "calf",  "ankle_min",  "leg_hem"};
+  return std::find(LIMBS.begin(), LIMBS.end(), row) != LIMBS.end();
+}
+
 std::string spoken_girth(const std::string& girth) {
   static const std::map<std::string, std::string> SPOKEN = {
       {"waist_semantic", "waist"},

@@ -1,5 +1,6 @@
+#include <garment/fit/fit_places.hpp>
 #include <sloper/garment/fit/fit_policy.hpp>
-
+#include <sloper/garment/materials.hpp>
 #include <sloper/io/json.hpp>
 
 #include <algorithm>
@@ -13,13 +14,29 @@ constexpr double STRAIN_P99 = 0.05, STRAIN_MAX = 0.30, SLIP = 0.10; // woven clo
 constexpr double WEARING_LOAD = 50; // N/m: half of the tension from which stretch is a finding
 constexpr double ONE_PLACE = 2;     // times the strain of the whole, at one place
 
+// No girth of cloth that is to fit is four times the body's, and no cloth stretches to that; a
+// limit in per cent is hardly ever as low.
+constexpr double LARGEST_SHARE = 3;
+constexpr double NO_LIMIT = 1000; // times the body's girth: no limit, and no per cent either
+
+/// A limit that is a share of a girth.
+double share(const io::Node& node) {
+  const double value = node.number(), size = std::abs(value);
+  if (size > LARGEST_SHARE && size < NO_LIMIT)
+    node.fail("policy.not-a-share"_id,
+              node.json().dump() + " is more than a share of a girth can be",
+              "limits are shares, not per cent: " + io::Json(value / 100).dump() +
+                  "? (1000 and more is no limit)");
+  return value;
+}
+
 FitOverride read_override(const io::Node& node) {
   node.allow_only(
       {"too_small_ease", "too_small_strain", "tight_ease", "loose_ease", "too_large_ease"});
   FitOverride o;
   const auto read = [&](const char* key, std::optional<double>& value) {
     if (node.has(key))
-      value = node.at(key).number();
+      value = share(node.at(key));
   };
   read("too_small_ease", o.too_small_ease);
   read("too_small_strain", o.too_small_strain);
@@ -38,10 +55,47 @@ FitOverride read_override(const io::Node& node) {
   return o;
 }
 
+bool is_row(const std::string& girth) {
+  const std::vector<std::string>& names = fit_row_names();
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return girth == name || (has_sides(name) && (girth == name + "_l" || girth == name + "_r"));
+  });
+}
+
+/// The row that is meant by a name that none has: as the report speaks of it, as it begins, or as
+/// it is written almost. @return " (did you mean ...?)", or nothing
+std::string row_meant(const std::string& girth) {
+  const std::vector<std::string>& names = fit_row_names();
+  const auto question = [](const std::string& name) { return " (did you mean \"" + name + "\"?)"; };
+  for (const std::string& name : names)
+    if (spoken_girth(name) == girth)
+      return question(name);
+  for (const std::string& name : names)
+    if (name.rfind(girth + "_", 0) == 0)
+      return question(name);
+  return did_you_mean(girth, names, "\"");
+}
+
+/// A rule for a girth that no report has a row of would never be applied.
+void refuse_unknown(const io::Node& girths) {
+  for (const std::string& girth : girths.keys()) {
+    if (is_row(girth))
+      continue;
+    std::string known;
+    for (const std::string& name : fit_row_names())
+      known += (known.empty() ? "" : ", ") + name;
+    girths.fail("policy.unknown-girth"_id,
+                "\"" + girth + "\" is not a girth of a fit report" + row_meant(girth),
+                "use " + known + "; of one limb alone with _l or _r");
+  }
+}
+
 FitRules read_rules(const io::Node& node) {
   FitRules rules;
   if (node.has("default"))
     rules.standard = read_override(node.at("default"));
+  if (node.has("girths"))
+    refuse_unknown(node.at("girths"));
   if (node.has("girths"))
     for (const std::string& name : node.at("girths").keys())
       rules.girths[name] = read_override(node.at("girths").at(name));
@@ -55,6 +109,9 @@ FitRules read_rules(const io::Node& node) {
   positive("strain_p99", rules.strain_p99);
   positive("strain_max", rules.strain_max);
   positive("slip_m", rules.slip_m);
+  for (const char* key : {"strain_p99", "strain_max"})
+    if (node.has(key))
+      share(node.at(key));
   return rules;
 }
 
@@ -293,6 +350,28 @@ FitPolicy read_fit_policy(const std::string& path) {
     }
   }
   return policy;
+}
+
+std::vector<Message> doubtful_fabrics(const FitPolicy& policy, const Garment& garment,
+                                      const std::string& path) {
+  std::vector<std::string> known;
+  for (const auto& [key, material] : garment.materials)
+    known.insert(known.end(), {key, material.name});
+  for (const pattern::PanelInfo& panel : garment.panels.panels)
+    known.push_back(panel.material);
+  for (const Material& preset : material_presets())
+    known.push_back(preset.name);
+  std::vector<Message> doubts;
+  for (const auto& [fabric, rules] : policy.own.fabrics) {
+    const std::string meant = did_you_mean(fabric, known, "\"");
+    if (meant.empty() || std::find(known.begin(), known.end(), fabric) != known.end())
+      continue;
+    doubts.emplace_back("policy.unknown-fabric"_id,
+                        path + ": /fabrics: \"" + fabric +
+                            "\" is neither a preset nor a material of the garment" + meant +
+                            "; its rules are not applied");
+  }
+  return doubts;
 }
 
 } // namespace sloper::garment

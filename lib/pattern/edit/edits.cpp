@@ -279,6 +279,31 @@ void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
   }
 }
 
+/// A panel that lies on one side of a line would be moved or left as it is, but not lengthened.
+void refuse_line_beside(const Panel& panel, const Vec2& at, const Vec2& along, const io::Node& node,
+                        double unit) {
+  constexpr int STEPS = 16; // along a segment of the outline
+  double low = 1e300, high = -1e300;
+  for (const PanelEdge& e : panel.loops[0])
+    for (const Segment& s : e.path)
+      for (int k = 0; k <= STEPS; ++k) {
+        const double beyond = (s.at(k / double(STEPS)) - at).dot(along);
+        low = std::min(low, beyond);
+        high = std::max(high, beyond);
+      }
+  if (low <= 0 && high > 0)
+    return;
+  const double line = at.dot(along);
+  const auto in_unit = [&](double metres) {
+    return io::Json(std::round(1000 * metres / unit) / 1000).dump();
+  };
+  node.at("at").fail("edit.line-does-not-cut"_id,
+                     "the line lies beside panel " + panel.name + ": measured along \"along\" at " +
+                         in_unit(line) + ", the panel from " + in_unit(line + low) + " to " +
+                         in_unit(line + high) + ", in the unit of the document",
+                     "give a point of the panel, or name another panel");
+}
+
 /// What lies beyond a line goes along. @param sign 1 lengthens, -1 shortens
 void lengthen(Pattern& pattern, const io::Node& node, double unit, double sign) {
   node.allow_only({"edit", "panel", "at", "along", "by"});
@@ -288,8 +313,9 @@ void lengthen(Pattern& pattern, const io::Node& node, double unit, double sign) 
                           "the vector has no length, so it gives no direction");
   const Vec2 along = direction.normalized(),
              by = snapped(Vec2(along * node.at("by").number() * unit * sign));
-  map_panel(edited_panel(pattern, node),
-            [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
+  Panel& panel = edited_panel(pattern, node);
+  refuse_line_beside(panel, at, along, node, unit);
+  map_panel(panel, [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
 }
 
 /// The panel that an edit names, or all.

@@ -22,7 +22,12 @@ case_what_no_cloth_has_is_refused() {
   says "nothing was measured that bending follows from"
   run 3 "$program" --weight 121 -o out.json --overhang-bias 40
   run 3 "$program" --weight 121 -o out.json --overhang-warp 2
+  run 3 "$program" --weight 121 -o out.json --overhang-warp 420
+  says "overhang of 420.0 mm: is longer than the strip of 200 mm; give what hangs over the edge, in mm, from 5 to 200"
   run 3 "$program" --weight 121 -o out.json --drape-percent 120
+  run 3 "$program" --weight 121 -o out.json --drape-percent 66 --drape-percent 0.66
+  says "--drape-percent 0.66: is less than any cloth drapes to; give it in per cent: 66?"
+  run 3 "$program" --weight 121 -o out.json --drape-percent 3
   run 3 "$program" --weight 121 -o out.json --drape-percent 60 --folds -3
   says "folds: are those of no drape"
   run 2 "$program" --weight 121 -o out.json --drape-percent 60 --disc 290

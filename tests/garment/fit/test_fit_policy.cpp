@@ -2,6 +2,7 @@
 
 #include <support/skin_garment.hpp>
 
+#include <garment/fit/fit_places.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/fit/fit.hpp>
@@ -137,6 +138,80 @@ TEST(fit_policy, what_it_does_not_know_is_refused) {
                Error);
   EXPECT_THROW(read_fit_policy(policy_file(R"("refuse": ["ugly"])")), Error);
   EXPECT_THROW(read_fit_policy(policy_file(R"("classes": {"hat": {}})")), Error);
+}
+
+namespace {
+
+/// What a policy is refused with; empty where it is read.
+std::string refusal(const std::string& text) {
+  try {
+    read_fit_policy(policy_file(text));
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::INPUT);
+    EXPECT_NE(e.file(), "");
+    EXPECT_NE(e.next_step(), "");
+    return e.id().string() + " " + e.place() + ": " + e.fact() + "; " + e.next_step();
+  }
+  return {};
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST(fit_policy, a_girth_that_no_report_has_is_refused) {
+  const std::string waist = refusal(R"("girths": {"waist": {"loose_ease": 0.1}})");
+  EXPECT_TRUE(says(waist, "policy.unknown-girth /girths: \"waist\"")) << waist;
+  EXPECT_TRUE(says(waist, "did you mean \"waist_semantic\"?")) << waist;
+  EXPECT_TRUE(says(refusal(R"("classes": {"top": {"girths": {"navel": {}}}})"), "omphalion\"?"));
+  EXPECT_TRUE(says(refusal(R"("fabrics": {"wool": {"girths": {"sleeve": {}}}})"), "sleeve_hem\"?"));
+  EXPECT_TRUE(says(refusal(R"("girths": {"hipp": {}})"), "did you mean \"hip\"?"));
+  EXPECT_TRUE(says(refusal(R"("girths": {"bust_l": {}})"), "policy.unknown-girth"));
+  EXPECT_EQ(refusal(R"("girths": {"wrist": {}, "wrist_l": {}, "top_edge": {}, "leg_hem_r": {}})"),
+            "");
+}
+
+TEST(fit_policy, every_girth_that_is_measured_may_be_named) {
+  const body::Body body = measured("f-165-a");
+  const Dressed d = dressed(body, skin_shirt(body, 0.01));
+  std::string rows;
+  for (const FitPlace& place : fit_places(body))
+    rows += (rows.empty() ? "\"" : ", \"") + place.name + "\": {}";
+  for (const FitRow& row : d.report.rows)
+    if (row.kind == "edge")
+      rows += ", \"" + row.name + "\": {}";
+  EXPECT_TRUE(says(rows, "bust") && says(rows, "thigh_l") && says(rows, "_edge")) << rows;
+  EXPECT_EQ(refusal("\"girths\": {" + rows + "}"), "");
+  for (const auto& [name, rules] : standard_fit_policy().standard.classes)
+    for (const auto& [girth, limits] : rules.girths)
+      EXPECT_EQ(refusal("\"girths\": {\"" + girth + "\": {}}"), "") << name;
+}
+
+TEST(fit_policy, per_cent_are_refused_as_shares) {
+  const std::string loose = refusal(R"("default": {"loose_ease": 35})");
+  EXPECT_TRUE(says(loose, "policy.not-a-share /default/loose_ease: 35")) << loose;
+  EXPECT_TRUE(says(loose, "shares, not per cent: 0.35?")) << loose;
+  EXPECT_TRUE(says(refusal(R"("girths": {"hip": {"too_small_ease": -5}})"), "-0.05?"));
+  EXPECT_TRUE(says(refusal(R"("strain_p99": 5)"), "/strain_p99"));
+  EXPECT_TRUE(says(refusal(R"("fabrics": {"x": {"strain_max": 30}})"), "0.3?"));
+  EXPECT_EQ(refusal(R"("default": {"loose_ease": 3, "too_large_ease": 1e9}, "strain_max": 1000)"),
+            "");
+}
+
+TEST(fit_policy, a_fabric_almost_called_like_one_that_there_is_is_told) {
+  const body::Body body = measured("f-165-a");
+  Garment shirt = skin_shirt(body, 0.01);
+  shirt.materials[""].name = "mill-0471";
+  const FitPolicy policy = read_fit_policy(policy_file(
+      R"("fabrics": {"jersy": {}, "mill-0417": {}, "mill-0471": {}, "denim": {}, "brocade": {}})"));
+  const std::vector<Message> doubts = doubtful_fabrics(policy, shirt, "policy.json");
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_EQ(doubts[0].id, "policy.unknown-fabric");
+  EXPECT_TRUE(says(doubts[0].text, "policy.json: /fabrics: \"jersy\"")) << doubts[0].text;
+  EXPECT_TRUE(says(doubts[0].text, "did you mean \"jersey\"?")) << doubts[0].text;
+  EXPECT_TRUE(says(doubts[1].text, "did you mean \"mill-0471\"?")) << doubts[1].text;
 }
 
 } // namespace sloper::garment

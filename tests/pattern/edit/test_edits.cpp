@@ -131,6 +131,34 @@ TEST(Edits, NumbersBeyondAllBoundsAreRefusedBeforeTheyAreMeshed) {
   }
 }
 
+TEST(Edits, ALineBesideAPanelLengthensNothingAndIsRefused) {
+  const Pattern before = own(tube_text());
+  const auto lengthened = [&](const std::string& edit_name, double y, const char* along) {
+    Pattern after = before;
+    edit(after, R"({"edit": ")" + edit_name + R"(", "panel": "front", "at": [0, )" +
+                    std::to_string(y) + R"(], "along": )" + along + R"(, "by": 3})");
+    return points(after);
+  };
+  const char *up = "[0, 1]", *down = "[0, -1]";
+  for (const auto& [name, y, along] : {std::tuple{"lengthen", 150.0, up},
+                                       {"lengthen", 150.0, down},
+                                       {"shorten", -0.1, up},
+                                       {"lengthen", 60.0, up},
+                                       {"shorten", -1.0, down}}) { // 60 is the top itself
+    try {
+      lengthened(name, y, along);
+      ADD_FAILURE() << name << " at " << y << " along " << along;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.id(), "edit.line-does-not-cut"_id) << e.what();
+      EXPECT_EQ(e.place(), "/edits/0/at");
+      EXPECT_NE(e.fact().find("panel front"), std::string::npos) << e.what();
+      EXPECT_NE(e.next_step(), "");
+    }
+  }
+  EXPECT_NE(lengthened("lengthen", 0, up), points(before)) << "from the hem on";
+  EXPECT_NE(lengthened("shorten", 59.9, up), points(before));
+}
+
 TEST(Edits, WrongNamesAreRefusedWithASuggestion) {
   Pattern pattern = own(tube_text());
   for (const char* wrong :
