@@ -90,9 +90,9 @@ int main(int argc, char** argv) {
               "set one girth, m: neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, "
               "ankle, upper_arm, forearm or wrist")
       .type_name("NAME=METRES");
-  tool.option("-o,--output", o.output, "OBJ file to write").check(cli::output_file());
+  tool.option("-o,--output", o.output, "OBJ file to write").check(cli::output_file_of(".obj"));
   tool.option("--truth", o.truth, "write landmarks, levels and girths known by construction (JSON)")
-      .check(cli::output_file());
+      .check(cli::output_file_of(".json"));
   tool.option("--parts", o.parts,
               "write one byte per vertex: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r")
       .check(cli::output_file());

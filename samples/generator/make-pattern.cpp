@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
       .check(cli::finite_in(0, 0.25, "m"));
   tool.option("-o,--output", output, "pattern document to write")
       .required()
-      .check(cli::output_file());
+      .check(cli::output_file_of(".json"));
   tool.example("make-pattern shirt --body body.json -o shirt.pattern.json",
                "a shirt for a measured body");
   tool.example("make-pattern shirt --band-collar --body body.json -o shirt.pattern.json",

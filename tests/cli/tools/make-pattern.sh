@@ -18,7 +18,18 @@ case_a_measure_that_is_not_in_metres_is_told_what_to_write() {
   done
   run 2 "$program" skirt --measure wais=0.75 -o out.json
   says 'did you mean "waist"?'
+  local pair
+  for pair in chest=bust seat=hip inseam=inside-leg height=stature; do
+    run 2 "$program" skirt --measure "${pair%=*}=0.75" -o out.json
+    says "there is no measure \"${pair%=*}\" (did you mean \"${pair#*=}\"?)"
+  done
   run 0 "$program" skirt --body a.body.json --measure waist=0.75 -o out.json
+}
+
+case_a_name_of_another_format_is_refused() {
+  run 2 "$program" skirt --body a.body.json -o skirt.dxf
+  says "--output: skirt.dxf does not end in .json, and nothing else is written; name skirt.json"
+  [[ ! -e skirt.dxf ]] || fail "a pattern is written"
 }
 
 case_measures_that_are_not_given_follow_from_stature() {
