@@ -14,6 +14,26 @@ constexpr const char* TRUNK_LEVELS[] = {
     "underbust", "waist_girth_min", "waist_semantic", "waist_width_min", "omphalion", "abdomen",
     "hip",       "hip_girth_max"};
 
+/// What tailors and the body document call the measures otherwise.
+const std::map<std::string, std::string> OTHER_NAMES = {{"height", "stature"},
+                                                        {"chest", "bust"},
+                                                        {"seat", "hip"},
+                                                        {"hips", "hip"},
+                                                        {"collar", "neck"},
+                                                        {"bicep", "upper-arm"},
+                                                        {"biceps", "upper-arm"},
+                                                        {"back", "back-length"},
+                                                        {"nape-to-waist", "back-length"},
+                                                        {"rise", "body-rise"},
+                                                        {"inseam", "inside-leg"},
+                                                        {"inner-leg", "inside-leg"},
+                                                        {"crotch", "crotch-length"},
+                                                        {"crotch-depth", "body-rise"},
+                                                        {"armhole-depth", "scye-depth"},
+                                                        {"shoulder-length", "shoulder"},
+                                                        {"sleeve", "arm-length"},
+                                                        {"sleeve-length", "arm-length"}};
+
 /// Landmark, level and girth by name; missing ones are nothing.
 class Reader {
 public:
@@ -114,9 +134,12 @@ void set_measure(Measures& m, const std::string& name, double value) {
       return;
     }
   }
+  const auto meant = OTHER_NAMES.find(name);
+  const std::string guess = meant == OTHER_NAMES.end()
+                                ? did_you_mean(name, names, "\"")
+                                : " (did you mean \"" + meant->second + "\"?)";
   throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--measure",
-              "there is no measure \"" + name + "\"" + did_you_mean(name, names, "\""),
-              "see --help");
+              "there is no measure \"" + name + "\"" + guess, "see --help");
 }
 
 Measures measures_from_body(const io::Json& body, const std::string& file) {
