@@ -19,6 +19,7 @@ SMALL = 2000
 WORST = 500
 PICTURES = 200
 ROWS = 1000
+MESSAGES = 1000  # at most so many are counted of each cause
 
 GOOD = ("dressed",)
 REFUSED = ("does not fit", "cannot go on")
@@ -173,8 +174,14 @@ class Totals:
         self.causes = [None] * plan.cell_count  # the texts are shared
         self.names = {}
         self.garments, self.scans = set(), set()
+        self.messages = {}  # of failed cells: cause -> message -> count
 
     def add(self, number, status):
+        if css_class(status["cause"]) == "bad":
+            said = self.messages.setdefault(status["cause"], {})
+            message = status.get("message", "")
+            if message in said or len(said) < MESSAGES:
+                said[message] = said.get(message, 0) + 1
         self.causes[number] = self.names.setdefault(status["cause"], status["cause"])
         self.garments.add(status["garment"] + status["size"])
         self.scans.add(status["scan"])
@@ -190,6 +197,9 @@ class Totals:
             sum(count.get(c, 0) for c in GOOD),
             sum(count.get(c, 0) for c in REFUSED),
         )
+        failures = [c for c in count if css_class(c) == "bad"]
+        commonest = min(failures, key=lambda c: (-count[c], c), default=None)
+        said = self.messages.get(commonest, {})
         tried = cells - refused
         low, high = wilson(dressed, tried)
         return {
@@ -201,7 +211,17 @@ class Totals:
             "low": low,
             "high": high,
             "causes": count,
+            "commonest": commonest,
+            "message": min(said, key=lambda text: (-said[text], text), default=""),
         }
+
+
+def commonest_text(figures):
+    """Of the failed cells: why most of them did, and what most of those said."""
+    cause = figures["commonest"]
+    failed = figures["tried"] - figures["dressed"]
+    text = f"most failures: {cause}, {figures['causes'][cause]} of {failed}"
+    return text + (f"; {figures['message']}" if figures["message"] else "")
 
 
 def figures_html(totals, figures, missing):
