@@ -224,12 +224,32 @@ def commonest_text(figures):
     return text + (f"; {figures['message']}" if figures["message"] else "")
 
 
-def figures_html(totals, figures, missing):
-    text = f"<h1>{counted(figures['cells'], 'cell')}: {counted(len(totals.garments), 'garment')} on {counted(len(totals.scans), 'scan')}</h1>\n<div class=figures>"
+def worn_text(figures):
+    """Of all cells, whatever they are refused for."""
+    return f"{figures['dressed']} of {figures['cells']} can be worn"
+
+
+def cause_text(cause, n):
+    return "do not fit" if cause == "does not fit" and n != 1 else cause
+
+
+def settings_text(settings):
+    policy = settings.get("policy")
+    text = f"mode {settings['mode']}, "
+    text += f"fit policy {os.path.basename(policy)}" if policy else "the standard fit policy"
+    return text + (", the nearest size" if settings.get("nearest_size") else "")
+
+
+def figures_html(totals, figures, missing, settings):
+    text = f"<h1>{counted(figures['cells'], 'cell')}: {counted(len(totals.garments), 'garment')} on {counted(len(totals.scans), 'scan')}</h1>\n"
+    text += f"<p class=pale>{html.escape(settings_text(settings))}</p>\n<div class=figures>"
+    text += f"<div><b>{worn_text(figures)}</b>dressed, of all cells made</div>"
     if figures["rate"] is not None:
-        text += f"<div><b class=ok>{100 * figures['rate']:.1f} %</b>dressed of {figures['tried']} that may fit<br><span class=pale>95 %: {100 * figures['low']:.1f} to {100 * figures['high']:.1f} %</span></div>"
+        text += f"<div><b>{100 * figures['rate']:.1f} %</b>dressed of {figures['tried']} that may fit<br><span class=pale>95 %: {100 * figures['low']:.1f} to {100 * figures['high']:.1f} %</span></div>"
     for cause, n in sorted(figures["causes"].items(), key=lambda item: (-item[1], item[0])):
-        text += f'<div><b class="{css_class(cause)}">{n}</b>{html.escape(cause)}</div>'
+        text += (
+            f'<div><b class="{css_class(cause)}">{n}</b>{html.escape(cause_text(cause, n))}</div>'
+        )
     text += "</div>\n"
     if missing:
         text += (
@@ -522,6 +542,6 @@ def summarise(plan):
     missing = plan.cell_count - figures["cells"]
     planning.write_text(
         os.path.join(out, "population.html"),
-        HEAD + figures_html(totals, figures, missing) + page.body() + SCRIPT,
+        HEAD + figures_html(totals, figures, missing, plan.settings) + page.body() + SCRIPT,
     )
     return figures, missing
