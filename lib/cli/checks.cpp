@@ -3,11 +3,21 @@
 
 #include <sys/stat.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace sloper::cli {
+
+/// ".obj" of out.OBJ; empty where there is none.
+static std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
 
 static std::string number_text(double value) {
   char text[32];
@@ -62,16 +72,29 @@ Check output_file() {
   return {"output_file", "FILE", check};
 }
 
+Check output_file_of(const std::string& ending) {
+  auto check = [ending](const std::string& path) -> std::string {
+    if (path.empty())
+      return "an empty file name";
+    if (ending_of(path).empty() || ending_of(path) == ending)
+      return "";
+    return path + " does not end in " + ending + ", and nothing else is written; name " +
+           std::filesystem::path(path).replace_extension(ending).string();
+  };
+  return {"output_file", "FILE", check};
+}
+
 Check document_file() {
   auto check = [](const std::string& path) -> std::string {
     if (path.empty())
       return "an empty file name";
     if (path == "-")
       return "the document has a mesh beside it and cannot go to standard output; name a file";
-    if (path.ends_with(".obj"))
-      return path +
-             " is the name of a mesh; name the document: " + path.substr(0, path.size() - 4) +
-             ".json, the mesh is written beside it";
+    for (const char* mesh : {".obj", ".ply", ".glb", ".stl"})
+      if (ending_of(path) == mesh)
+        return path + " is the name of a mesh; name the document: " +
+               std::filesystem::path(path).replace_extension(".json").string() +
+               ", the mesh is written beside it";
     return "";
   };
   return {"output_file", "FILE", check};

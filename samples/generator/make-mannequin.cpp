@@ -2,6 +2,7 @@
 /// known by construction.
 #include "mannequin.hpp"
 #include "named_length.hpp"
+#include <cmath>
 #include <cstdio>
 #include <sloper/base/error.hpp>
 #include <sloper/cli/run_tool.hpp>
@@ -12,6 +13,8 @@
 using namespace sloper;
 
 namespace {
+
+constexpr double NEAR_ENOUGH = 0.005; // m, by which a girth may differ from the one asked for
 
 struct Options {
   std::string preset, output, truth, parts;
@@ -26,8 +29,27 @@ void read_girths(const std::vector<std::string>& texts, samples::Mannequin& shap
   }
 }
 
-void write(const Options& o, const samples::Mannequin& shape) {
-  const samples::MadeMannequin made = samples::make_mannequin(shape);
+/// Warns of each girth that was asked for and did not come out.
+/// @return whether all of them did
+bool check_girths(const samples::Mannequin& asked, const samples::MadeMannequin& made,
+                  Reporter& reporter) {
+  bool all = true;
+  for (const auto& [name, value] : asked.girths_m) {
+    const double came_out = made.girths_m.at(name);
+    if (std::abs(came_out - value) <= NEAR_ENOUGH)
+      continue;
+    all = false;
+    char fact[200];
+    std::snprintf(fact, sizeof fact,
+                  "--girth %s=%.4g: the figure came out with %.3f m there; ask for a girth nearer "
+                  "to it, or change --bmi or the girths beside it too",
+                  name.c_str(), value, came_out);
+    reporter.warning({"sample.girth-not-had"_id, fact});
+  }
+  return all;
+}
+
+void write(const Options& o, const samples::MadeMannequin& made) {
   io::ObjMesh obj;
   obj.positions = made.mesh.positions;
   obj.triangles = made.mesh.triangles;
@@ -68,9 +90,9 @@ int main(int argc, char** argv) {
               "set one girth, m: neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, "
               "ankle, upper_arm, forearm or wrist")
       .type_name("NAME=METRES");
-  tool.option("-o,--output", o.output, "OBJ file to write").check(cli::output_file());
+  tool.option("-o,--output", o.output, "OBJ file to write").check(cli::output_file_of(".obj"));
   tool.option("--truth", o.truth, "write landmarks, levels and girths known by construction (JSON)")
-      .check(cli::output_file());
+      .check(cli::output_file_of(".json"));
   tool.option("--parts", o.parts,
               "write one byte per vertex: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r")
       .check(cli::output_file());
@@ -103,7 +125,8 @@ int main(int argc, char** argv) {
     if (cell.given())
       shape.cell_m = given.cell_m;
     read_girths(o.girths, shape);
-    write(o, shape);
-    return 0;
+    const samples::MadeMannequin made = samples::make_mannequin(shape);
+    write(o, made);
+    return check_girths(shape, made, tool.reporter()) ? 0 : static_cast<int>(ErrorKind::FAILED);
   });
 }

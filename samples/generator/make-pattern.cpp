@@ -37,9 +37,16 @@ void set_measures(const std::vector<std::string>& texts, samples::Measures& meas
   }
 }
 
+/// A standard figure of the stature that --measure says, or of its own.
+samples::Measures standard_figure(const std::vector<std::string>& given) {
+  samples::Measures said;
+  set_measures(given, said);
+  return samples::standard_measures(said.stature);
+}
+
 /// Which measures are nobody's own, with their values.
-std::string standard_measures(const std::vector<std::string>& given) {
-  const samples::Measures standard;
+std::string standard_list(const std::vector<std::string>& given) {
+  const samples::Measures standard = standard_figure(given);
   std::string list;
   for (const auto& [name, member] : samples::measure_names()) {
     const bool own = std::any_of(given.begin(), given.end(), [n = name](const std::string& text) {
@@ -80,7 +87,7 @@ int main(int argc, char** argv) {
       .check(cli::finite_in(0, 0.25, "m"));
   tool.option("-o,--output", output, "pattern document to write")
       .required()
-      .check(cli::output_file());
+      .check(cli::output_file_of(".json"));
   tool.example("make-pattern shirt --body body.json -o shirt.pattern.json",
                "a shirt for a measured body");
   tool.example("make-pattern shirt --band-collar --body body.json -o shirt.pattern.json",
@@ -96,7 +103,7 @@ int main(int argc, char** argv) {
     if (!body.empty() && !preset.empty())
       throw Error(ErrorKind::USAGE, "option.conflict"_id, "", "--body",
                   "cannot be combined with --preset", "leave one of them out");
-    samples::Measures measures;
+    samples::Measures measures = standard_figure(given);
     if (!body.empty())
       measures = samples::measures_from_body(io::read_json(body), body);
     else if (!preset.empty())
@@ -122,7 +129,7 @@ int main(int argc, char** argv) {
         panel.roll_edge = "low";
     if (body.empty() && preset.empty())
       tool.reporter().warning(
-          {"sample.standard-measures"_id, "no --body is given: " + standard_measures(given)});
+          {"sample.standard-measures"_id, "no --body is given: " + standard_list(given)});
     if (const std::vector<std::string> faults = samples::draft_faults(made); !faults.empty())
       throw Error(ErrorKind::FAILED, "sample.faulty-draft"_id, body, garment,
                   "these measures give a faulty draft: " + faults.front(), "check the measures");

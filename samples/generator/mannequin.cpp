@@ -58,6 +58,25 @@ struct Tape {
   }
 };
 
+/// Girths of the figure, m, by the names of Mannequin::girths_m.
+std::map<std::string, double> taped(const BodyField& body) {
+  const Tape tape{body};
+  const double h = body.stature;
+  return {{"neck", tape.neck()},
+          {"bust", tape.trunk(body.y_bust)},
+          {"underbust", tape.cage(body.y_underbust)},
+          {"waist", tape.trunk(body.y_waist)},
+          {"abdomen", tape.trunk(body.y_omphalion - 0.015 * h)},
+          {"hip", tape.trunk(body.y_hip)},
+          {"thigh", tape.leg(0.45 * h)},
+          {"knee", tape.leg(body.knee.y())},
+          {"calf", tape.leg(0.205 * h)},
+          {"ankle", tape.leg(0.075 * h)},
+          {"upper_arm", tape.arm(0.5 * body.upper_arm_length)},
+          {"forearm", tape.arm(body.upper_arm_length + 0.28 * body.forearm_length)},
+          {"wrist", tape.arm(body.upper_arm_length + body.forearm_length)}};
+}
+
 /// Factors under which the girths come out as asked: each girth is measured and its factor
 /// corrected, a few times over.
 GirthFactors fit(const Mannequin& shape, const std::map<std::string, double>& want) {
@@ -67,32 +86,31 @@ GirthFactors fit(const Mannequin& shape, const std::map<std::string, double>& wa
       trunk;
   for (int round = 0; round < 9; ++round) {
     const BodyField body(shape, g);
-    const Tape tape{body};
-    const auto correct = [&](double& factor, const char* name, double measured) {
-      factor = std::clamp(factor * std::pow(want.at(name) / measured, 0.9), 0.4, 2.5);
+    const std::map<std::string, double> made = taped(body);
+    const auto correct = [&](double& factor, const char* name) {
+      factor = std::clamp(factor * std::pow(want.at(name) / made.at(name), 0.9), 0.4, 2.5);
     };
-    const double h = shape.stature_m;
-    correct(g.waist, "waist", tape.trunk(body.y_waist));
-    correct(g.abdomen, "abdomen", tape.trunk(body.y_omphalion - 0.015 * h));
-    correct(g.hip, "hip", tape.trunk(body.y_hip));
-    correct(g.underbust, "underbust", tape.cage(body.y_underbust));
+    correct(g.waist, "waist");
+    correct(g.abdomen, "abdomen");
+    correct(g.hip, "hip");
+    correct(g.underbust, "underbust");
     if (shape.sex == "f") {
       // The rib cage behind the breasts is a part of the way from the girth under them to the girth
       // over them.
       const double cage = want.at("underbust") + 0.40 * (want.at("bust") - want.at("underbust"));
-      g.chest = std::clamp(g.chest * std::pow(cage / tape.cage(body.y_bust), 0.9), 0.4, 2.5);
-      g.breast_m =
-          std::clamp(g.breast_m + 0.45 * (want.at("bust") - tape.trunk(body.y_bust)), -0.03, 0.12);
+      const double behind = Tape{body}.cage(body.y_bust);
+      g.chest = std::clamp(g.chest * std::pow(cage / behind, 0.9), 0.4, 2.5);
+      g.breast_m = std::clamp(g.breast_m + 0.45 * (want.at("bust") - made.at("bust")), -0.03, 0.12);
     } else
-      correct(g.chest, "bust", tape.trunk(body.y_bust));
-    correct(g.neck, "neck", tape.neck());
-    correct(g.thigh, "thigh", tape.leg(0.45 * h));
-    correct(g.knee, "knee", tape.leg(body.knee.y()));
-    correct(g.calf, "calf", tape.leg(0.205 * h));
-    correct(g.ankle, "ankle", tape.leg(0.075 * h));
-    correct(g.upper_arm, "upper_arm", tape.arm(0.5 * body.upper_arm_length));
-    correct(g.forearm, "forearm", tape.arm(body.upper_arm_length + 0.28 * body.forearm_length));
-    correct(g.wrist, "wrist", tape.arm(body.upper_arm_length + body.forearm_length));
+      correct(g.chest, "bust");
+    correct(g.neck, "neck");
+    correct(g.thigh, "thigh");
+    correct(g.knee, "knee");
+    correct(g.calf, "calf");
+    correct(g.ankle, "ankle");
+    correct(g.upper_arm, "upper_arm");
+    correct(g.forearm, "forearm");
+    correct(g.wrist, "wrist");
   }
   return g;
 }
@@ -197,6 +215,7 @@ MadeMannequin make_mannequin(const Mannequin& shape) {
   }
   made.parts = vertex_parts(made.mesh, body);
   made.truth = mannequin_truth(made.mesh, made.parts, body, shape);
+  made.girths_m = taped(body);
   // The origin is below the middle of the hip joints; the figure was modelled around its trunk's
   // axis.
   const double forward = -std::round(body.hip_joint.z() * 1e6) / 1e6;

@@ -32,6 +32,9 @@ struct MadeMannequin {
   std::vector<unsigned char>
       parts;      ///< one per vertex: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r
   io::Json truth; ///< landmarks, levels, girths_m under the names of the body document
+  /// m, as the figure came out, under the names of Mannequin::girths_m and measured as they are
+  /// meant there. The document's thigh, abdomen and underbust are taken elsewhere.
+  std::map<std::string, double> girths_m;
 };
 
 /// Girths of a figure of that sex, stature and body mass index, m.

@@ -14,6 +14,26 @@ constexpr const char* TRUNK_LEVELS[] = {
     "underbust", "waist_girth_min", "waist_semantic", "waist_width_min", "omphalion", "abdomen",
     "hip",       "hip_girth_max"};
 
+/// What tailors and the body document call the measures otherwise.
+const std::map<std::string, std::string> OTHER_NAMES = {{"height", "stature"},
+                                                        {"chest", "bust"},
+                                                        {"seat", "hip"},
+                                                        {"hips", "hip"},
+                                                        {"collar", "neck"},
+                                                        {"bicep", "upper-arm"},
+                                                        {"biceps", "upper-arm"},
+                                                        {"back", "back-length"},
+                                                        {"nape-to-waist", "back-length"},
+                                                        {"rise", "body-rise"},
+                                                        {"inseam", "inside-leg"},
+                                                        {"inner-leg", "inside-leg"},
+                                                        {"crotch", "crotch-length"},
+                                                        {"crotch-depth", "body-rise"},
+                                                        {"armhole-depth", "scye-depth"},
+                                                        {"shoulder-length", "shoulder"},
+                                                        {"sleeve", "arm-length"},
+                                                        {"sleeve-length", "arm-length"}};
+
 /// Landmark, level and girth by name; missing ones are nothing.
 class Reader {
 public:
@@ -69,11 +89,6 @@ private:
   io::Node m_body;
 };
 
-void scale_all(Measures& m, double factor) {
-  for (const auto& [name, member] : measure_names())
-    m.*member *= factor;
-}
-
 } // namespace
 
 std::vector<std::pair<std::string, double Measures::*>> measure_names() {
@@ -99,6 +114,14 @@ std::vector<std::pair<std::string, double Measures::*>> measure_names() {
           {"shoulder-height", &Measures::shoulder_height}};
 }
 
+Measures standard_measures(double stature) {
+  Measures m;
+  const double factor = stature / m.stature;
+  for (const auto& [name, member] : measure_names())
+    m.*member *= factor;
+  return m;
+}
+
 void set_measure(Measures& m, const std::string& name, double value) {
   std::vector<std::string> names;
   for (const auto& [known, member] : measure_names()) {
@@ -111,21 +134,23 @@ void set_measure(Measures& m, const std::string& name, double value) {
       return;
     }
   }
+  const auto meant = OTHER_NAMES.find(name);
+  const std::string guess = meant == OTHER_NAMES.end()
+                                ? did_you_mean(name, names, "\"")
+                                : " (did you mean \"" + meant->second + "\"?)";
   throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--measure",
-              "there is no measure \"" + name + "\"" + did_you_mean(name, names, "\""),
-              "see --help");
+              "there is no measure \"" + name + "\"" + guess, "see --help");
 }
 
 Measures measures_from_body(const io::Json& body, const std::string& file) {
   if (body.is_object() && body.contains("format"))
     io::check_envelope(body, file, "body", BODY_VERSION); // a mannequin's truth states none
   const Reader r(body, file);
-  Measures m;
   Vec3 p, q;
   if (!r.point("head_tip", p) || p.y() < 0.5)
     throw input_error("sample.no-stature"_id, file, "/landmarks/head_tip", "stature is not known",
                       "give a body document with a head_tip");
-  scale_all(m, p.y() / m.stature);
+  Measures m = standard_measures(p.y());
   double y = 0, girth = 0, waist_y = m.waist_height();
   for (const char* name : {"waist_girth_min", "waist_semantic", "omphalion"})
     if (r.level(name, girth, y)) {

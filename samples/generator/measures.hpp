@@ -3,6 +3,8 @@
 #include "draft.hpp"
 #include <sloper/io/json_fwd.hpp>
 namespace sloper::samples {
+/// A standard figure's measures, all of them in proportion to the stature, m.
+Measures standard_measures(double stature);
 /// From a body document or a mannequin's truth: both name landmarks, levels and girths alike. What
 /// is missing is taken from stature by average proportions.
 /// @throws Error INPUT when stature cannot be had

@@ -19,6 +19,7 @@ SMALL = 2000
 WORST = 500
 PICTURES = 200
 ROWS = 1000
+MESSAGES = 1000  # at most so many are counted of each cause
 
 GOOD = ("dressed",)
 REFUSED = ("does not fit", "cannot go on")
@@ -173,8 +174,14 @@ class Totals:
         self.causes = [None] * plan.cell_count  # the texts are shared
         self.names = {}
         self.garments, self.scans = set(), set()
+        self.messages = {}  # of failed cells: cause -> message -> count
 
     def add(self, number, status):
+        if css_class(status["cause"]) == "bad":
+            said = self.messages.setdefault(status["cause"], {})
+            message = status.get("message", "")
+            if message in said or len(said) < MESSAGES:
+                said[message] = said.get(message, 0) + 1
         self.causes[number] = self.names.setdefault(status["cause"], status["cause"])
         self.garments.add(status["garment"] + status["size"])
         self.scans.add(status["scan"])
@@ -190,6 +197,9 @@ class Totals:
             sum(count.get(c, 0) for c in GOOD),
             sum(count.get(c, 0) for c in REFUSED),
         )
+        failures = [c for c in count if css_class(c) == "bad"]
+        commonest = min(failures, key=lambda c: (-count[c], c), default=None)
+        said = self.messages.get(commonest, {})
         tried = cells - refused
         low, high = wilson(dressed, tried)
         return {
@@ -201,15 +211,45 @@ class Totals:
             "low": low,
             "high": high,
             "causes": count,
+            "commonest": commonest,
+            "message": min(said, key=lambda text: (-said[text], text), default=""),
         }
 
 
-def figures_html(totals, figures, missing):
-    text = f"<h1>{counted(figures['cells'], 'cell')}: {counted(len(totals.garments), 'garment')} on {counted(len(totals.scans), 'scan')}</h1>\n<div class=figures>"
+def commonest_text(figures):
+    """Of the failed cells: why most of them did, and what most of those said."""
+    cause = figures["commonest"]
+    failed = figures["tried"] - figures["dressed"]
+    text = f"most failures: {cause}, {figures['causes'][cause]} of {failed}"
+    return text + (f"; {figures['message']}" if figures["message"] else "")
+
+
+def worn_text(figures):
+    """Of all cells, whatever they are refused for."""
+    return f"{figures['dressed']} of {figures['cells']} can be worn"
+
+
+def cause_text(cause, n):
+    return "do not fit" if cause == "does not fit" and n != 1 else cause
+
+
+def settings_text(settings):
+    policy = settings.get("policy")
+    text = f"mode {settings['mode']}, "
+    text += f"fit policy {os.path.basename(policy)}" if policy else "the standard fit policy"
+    return text + (", the nearest size" if settings.get("nearest_size") else "")
+
+
+def figures_html(totals, figures, missing, settings):
+    text = f"<h1>{counted(figures['cells'], 'cell')}: {counted(len(totals.garments), 'garment')} on {counted(len(totals.scans), 'scan')}</h1>\n"
+    text += f"<p class=pale>{html.escape(settings_text(settings))}</p>\n<div class=figures>"
+    text += f"<div><b>{worn_text(figures)}</b>dressed, of all cells made</div>"
     if figures["rate"] is not None:
-        text += f"<div><b class=ok>{100 * figures['rate']:.1f} %</b>dressed of {figures['tried']} that may fit<br><span class=pale>95 %: {100 * figures['low']:.1f} to {100 * figures['high']:.1f} %</span></div>"
+        text += f"<div><b>{100 * figures['rate']:.1f} %</b>dressed of {figures['tried']} that may fit<br><span class=pale>95 %: {100 * figures['low']:.1f} to {100 * figures['high']:.1f} %</span></div>"
     for cause, n in sorted(figures["causes"].items(), key=lambda item: (-item[1], item[0])):
-        text += f'<div><b class="{css_class(cause)}">{n}</b>{html.escape(cause)}</div>'
+        text += (
+            f'<div><b class="{css_class(cause)}">{n}</b>{html.escape(cause_text(cause, n))}</div>'
+        )
     text += "</div>\n"
     if missing:
         text += (
@@ -502,6 +542,6 @@ def summarise(plan):
     missing = plan.cell_count - figures["cells"]
     planning.write_text(
         os.path.join(out, "population.html"),
-        HEAD + figures_html(totals, figures, missing) + page.body() + SCRIPT,
+        HEAD + figures_html(totals, figures, missing, plan.settings) + page.body() + SCRIPT,
     )
     return figures, missing

@@ -10,6 +10,7 @@ import hashlib
 import json
 import os
 import subprocess
+import tempfile
 
 SCAN_SUFFIXES = (
     ".obj",
@@ -200,6 +201,35 @@ def programs(folder):
         ).stdout.splitlines()[0]
         found[name] = {"path": os.path.abspath(path), "version": version, "sha256": sha256(path)}
     return found
+
+
+def try_options(tools, settings):
+    """Each program is called once with the options that every cell passes on, and with nothing to
+    read, so that a mistake in them is said before anything is made.
+
+    An option that will do ends in bad input, since there is none. --from and --fabric need a mesh
+    and are told by the cells."""
+    retarget = ["--mode", settings["mode"], "--accuracy", settings["accuracy"]]
+    for assignment in settings["set"]:
+        retarget += ["--set", assignment]
+    if settings["policy"]:
+        retarget += ["--policy", settings["policy"]]
+    calls = {
+        "scan-landmarks": ["--unit", settings["unit"], "--up", settings["up"], os.devnull],
+        "retarget-garment": [*retarget, "--garment", os.devnull, "--to", os.devnull],
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in calls.items():
+            done = subprocess.run(
+                [tools[name]["path"], "-o", os.path.join(folder, "out.json"), *words],
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                text=True,
+                env=dict(os.environ, LC_ALL="C.UTF-8"),
+            )
+            said = done.stderr.strip().splitlines()
+            if done.returncode in (2, 3) and said and os.devnull not in said[0]:
+                raise Mistake(said[0], done.returncode)
 
 
 def checked(path):

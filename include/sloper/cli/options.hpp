@@ -28,6 +28,9 @@ Check finite_in(double low, double high, const std::string& unit);
 Check input_file();
 /// A file to be written, or "-". Tool::run checks its folder before the work starts: exit 5.
 Check output_file();
+/// A file to be written in one format, or "-". The ending of its name, where it has one, is that
+/// format's. @param ending  ".obj"
+Check output_file_of(const std::string& ending);
 /// A document with a mesh beside it, which cannot go to standard output.
 Check document_file();
 /// A document with a mesh beside it, or a mesh alone.

@@ -18,7 +18,36 @@ case_a_measure_that_is_not_in_metres_is_told_what_to_write() {
   done
   run 2 "$program" skirt --measure wais=0.75 -o out.json
   says 'did you mean "waist"?'
+  local pair
+  for pair in chest=bust seat=hip inseam=inside-leg height=stature; do
+    run 2 "$program" skirt --measure "${pair%=*}=0.75" -o out.json
+    says "there is no measure \"${pair%=*}\" (did you mean \"${pair#*=}\"?)"
+  done
   run 0 "$program" skirt --body a.body.json --measure waist=0.75 -o out.json
+}
+
+case_a_name_of_another_format_is_refused() {
+  run 2 "$program" skirt --body a.body.json -o skirt.dxf
+  says "--output: skirt.dxf does not end in .json, and nothing else is written; name skirt.json"
+  [[ ! -e skirt.dxf ]] || fail "a pattern is written"
+}
+
+case_measures_that_are_not_given_follow_from_stature() {
+  local garment
+  for garment in shirt tshirt skirt trousers; do
+    run 0 "$program" "$garment" --measure stature=1.4 -o short.json
+    run 0 "$program" "$garment" --measure stature=1.9 -o tall.json
+    ! cmp -s short.json tall.json || fail "a $garment is the same for a child and for the tall"
+  done
+  says "back-length 44.9"
+  run 0 "$program" tshirt -o standard.json
+  run 0 "$program" tshirt --measure stature=1.65 -o out.json
+  cmp standard.json out.json || fail "the standard figure is not 1.65 m tall"
+  run 0 "$program" tshirt --measure stature=1.9 --measure back-length=0.39 --measure bust=0.92 -o first.json
+  run 0 "$program" tshirt --measure back-length=0.39 --measure bust=0.92 --measure stature=1.9 -o last.json
+  cmp first.json last.json || fail "the order of the measures matters"
+  says "waist-to-hip 23.0"
+  ! grep -qE "back-length|bust " stderr || fail "a measure that is given follows from stature"
 }
 
 case_the_flare_of_a_skirt_is_at_its_hem() {

@@ -18,6 +18,12 @@ case_a_scan_is_never_written_over() {
 case_a_document_is_not_named_as_a_mesh() {
   run 2 "$program" -o out.obj a.ply
   says "out.obj is the name of a mesh; name the document: out.json"
+  local name
+  for name in zz.ply zz.PLY zz.glb zz.stl; do
+    run 2 "$program" -o "$name" a.ply
+    says "$name is the name of a mesh; name the document: zz.json"
+    [[ ! -e $name ]] || fail "something is written as $name"
+  done
   [[ ! -e out.obj && ! -e out.obj.obj ]] || fail "something was written"
 }
 
