@@ -248,7 +248,7 @@ int run(cli::Tool& tool, Options o) {
   }
   const Source put_on = read_source(tool, o);
   const garment::Garment& source = put_on.garment;
-  for (const Message& doubt : garment::doubtful_fabrics(policy, source, o.policy))
+  for (const Message& doubt : garment::policy_doubts(policy, source, o.policy))
     tool.reporter().warning(doubt);
   garment::follow_fabric(source, policy);
   if (source.bind.empty())

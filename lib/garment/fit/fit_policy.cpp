@@ -19,16 +19,41 @@ constexpr double ONE_PLACE = 2;     // times the strain of the whole, at one pla
 constexpr double LARGEST_SHARE = 3;
 constexpr double NO_LIMIT = 1000; // times the body's girth: no limit, and no per cent either
 
-/// A limit that is a share of a girth.
-double share(const io::Node& node) {
-  const double value = node.number(), size = std::abs(value);
-  if (size > LARGEST_SHARE && size < NO_LIMIT)
-    node.fail("policy.not-a-share"_id,
-              node.json().dump() + " is more than a share of a girth can be",
-              "limits are shares, not per cent: " + io::Json(value / 100).dump() +
-                  "? (1000 and more is no limit)");
-  return value;
-}
+/// Warns of limits that are given in per cent.
+class ShareDoubts {
+public:
+  ShareDoubts(std::string path, std::vector<Message>& doubts)
+      : m_path(std::move(path)), m_doubts(doubts) {}
+  void look_at(const std::string& place, const FitRules& rules) {
+    look_at(place + "/default", rules.standard);
+    for (const auto& [girth, limits] : rules.girths)
+      look_at(place + "/girths/" + girth, limits);
+    look_at(place + "/strain_p99", rules.strain_p99);
+    look_at(place + "/strain_max", rules.strain_max);
+  }
+
+private:
+  void look_at(const std::string& place, const FitOverride& limits) {
+    look_at(place + "/too_small_ease", limits.too_small_ease);
+    look_at(place + "/too_small_strain", limits.too_small_strain);
+    look_at(place + "/tight_ease", limits.tight_ease);
+    look_at(place + "/loose_ease", limits.loose_ease);
+    look_at(place + "/too_large_ease", limits.too_large_ease);
+  }
+  void look_at(const std::string& place, const std::optional<double>& limit) {
+    const double size = std::abs(limit.value_or(0));
+    if (size <= LARGEST_SHARE || size >= NO_LIMIT)
+      return;
+    m_doubts.emplace_back("policy.not-a-share"_id,
+                          m_path + ": " + place + ": " + io::Json(*limit).dump() +
+                              " is more than a share of a girth can be; limits are shares, not "
+                              "per cent: " +
+                              io::Json(*limit / 100).dump() + "? (1000 and more is no limit)");
+  }
+
+  std::string m_path;
+  std::vector<Message>& m_doubts;
+};
 
 FitOverride read_override(const io::Node& node) {
   node.allow_only(
@@ -36,7 +61,7 @@ FitOverride read_override(const io::Node& node) {
   FitOverride o;
   const auto read = [&](const char* key, std::optional<double>& value) {
     if (node.has(key))
-      value = share(node.at(key));
+      value = node.at(key).number();
   };
   read("too_small_ease", o.too_small_ease);
   read("too_small_strain", o.too_small_strain);
@@ -109,9 +134,6 @@ FitRules read_rules(const io::Node& node) {
   positive("strain_p99", rules.strain_p99);
   positive("strain_max", rules.strain_max);
   positive("slip_m", rules.slip_m);
-  for (const char* key : {"strain_p99", "strain_max"})
-    if (node.has(key))
-      share(node.at(key));
   return rules;
 }
 
@@ -352,8 +374,8 @@ FitPolicy read_fit_policy(const std::string& path) {
   return policy;
 }
 
-std::vector<Message> doubtful_fabrics(const FitPolicy& policy, const Garment& garment,
-                                      const std::string& path) {
+std::vector<Message> policy_doubts(const FitPolicy& policy, const Garment& garment,
+                                   const std::string& path) {
   std::vector<std::string> known;
   for (const auto& [key, material] : garment.materials)
     known.insert(known.end(), {key, material.name});
@@ -371,6 +393,12 @@ std::vector<Message> doubtful_fabrics(const FitPolicy& policy, const Garment& ga
                             "\" is neither a preset nor a material of the garment" + meant +
                             "; its rules are not applied");
   }
+  ShareDoubts shares(path, doubts);
+  shares.look_at("", policy.own.all);
+  for (const auto& [name, rules] : policy.own.classes)
+    shares.look_at("/classes/" + name, rules);
+  for (const auto& [name, rules] : policy.own.fabrics)
+    shares.look_at("/fabrics/" + name, rules);
   return doubts;
 }
 

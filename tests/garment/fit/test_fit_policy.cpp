@@ -189,15 +189,21 @@ TEST(fit_policy, every_girth_that_is_measured_may_be_named) {
       EXPECT_EQ(refusal("\"girths\": {\"" + girth + "\": {}}"), "") << name;
 }
 
-TEST(fit_policy, per_cent_are_refused_as_shares) {
-  const std::string loose = refusal(R"("default": {"loose_ease": 35})");
-  EXPECT_TRUE(says(loose, "policy.not-a-share /default/loose_ease: 35")) << loose;
-  EXPECT_TRUE(says(loose, "shares, not per cent: 0.35?")) << loose;
-  EXPECT_TRUE(says(refusal(R"("girths": {"hip": {"too_small_ease": -5}})"), "-0.05?"));
-  EXPECT_TRUE(says(refusal(R"("strain_p99": 5)"), "/strain_p99"));
-  EXPECT_TRUE(says(refusal(R"("fabrics": {"x": {"strain_max": 30}})"), "0.3?"));
-  EXPECT_EQ(refusal(R"("default": {"loose_ease": 3, "too_large_ease": 1e9}, "strain_max": 1000)"),
-            "");
+TEST(fit_policy, limits_in_per_cent_are_told) {
+  const Garment garment;
+  const auto doubts = [&](const std::string& text) {
+    return policy_doubts(read_fit_policy(policy_file(text)), garment, "policy.json");
+  };
+  const std::vector<Message> loose = doubts(R"("default": {"loose_ease": 35})");
+  ASSERT_EQ(loose.size(), 1u);
+  EXPECT_EQ(loose[0].id, "policy.not-a-share");
+  EXPECT_TRUE(says(loose[0].text, "policy.json: /default/loose_ease: 35")) << loose[0].text;
+  EXPECT_TRUE(says(loose[0].text, "shares, not per cent: 0.35?")) << loose[0].text;
+  EXPECT_EQ(doubts(R"("girths": {"hip": {"too_small_ease": -5}})").size(), 1u);
+  EXPECT_EQ(doubts(R"("strain_p99": 5)").size(), 1u);
+  EXPECT_EQ(doubts(R"("fabrics": {"x": {"strain_max": 30}})").size(), 1u);
+  EXPECT_TRUE(
+      doubts(R"("default": {"loose_ease": 3, "too_large_ease": 1e9}, "strain_max": 1000)").empty());
 }
 
 TEST(fit_policy, a_fabric_almost_called_like_one_that_there_is_is_told) {
@@ -206,7 +212,7 @@ TEST(fit_policy, a_fabric_almost_called_like_one_that_there_is_is_told) {
   shirt.materials[""].name = "mill-0471";
   const FitPolicy policy = read_fit_policy(policy_file(
       R"("fabrics": {"jersy": {}, "mill-0417": {}, "mill-0471": {}, "denim": {}, "brocade": {}})"));
-  const std::vector<Message> doubts = doubtful_fabrics(policy, shirt, "policy.json");
+  const std::vector<Message> doubts = policy_doubts(policy, shirt, "policy.json");
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_EQ(doubts[0].id, "policy.unknown-fabric");
   EXPECT_TRUE(says(doubts[0].text, "policy.json: /fabrics: \"jersy\"")) << doubts[0].text;

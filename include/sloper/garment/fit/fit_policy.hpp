@@ -57,8 +57,7 @@ struct FitRuleSet {
 /// policy.json: {"format": "fit-policy", "version": 1, "name", "refuse": ["too small",
 /// ...], RULES, "classes": {CLASS: {RULES}}, "fabrics": {MATERIAL: {RULES}}}; RULES:
 /// "default": {limits}, "girths": {NAME: {limits}}, "strain_p99", "strain_max", "slip_m".
-/// NAME is a row of the fit report, of a limb without _l or _r for both sides; an ease or a strain
-/// of more than 3 and less than 1000 is refused, as it is in per cent. CLASS is top, dress,
+/// NAME is a row of the fit report, of a limb without _l or _r for both sides; CLASS is top, dress,
 /// skirt, trousers or whole. A fabric takes precedence over a class, a class over all
 /// garments, a girth over the default, and the document over the standard policy. Unknown
 /// keys are errors.
@@ -122,10 +121,11 @@ FitRules elastic_fabric_rules(double stiffness_n_m);
 /// @throws Error INPUT with its place
 FitPolicy read_fit_policy(const std::string& path);
 
-/// A warning for each fabric of the document whose name is almost that of a preset or of a material
-/// of the garment: none that is there has it. Other names are those of fabrics of other garments.
+/// Warnings of a policy document. A limit of more than 3 and less than 1000 is probably meant in
+/// per cent. A fabric whose name is almost that of a preset or of a material of the garment is
+/// probably misspelt; other names are those of fabrics of other garments.
 /// @param path  of the document, for the text
-std::vector<Message> doubtful_fabrics(const FitPolicy& policy, const Garment& garment,
-                                      const std::string& path);
+std::vector<Message> policy_doubts(const FitPolicy& policy, const Garment& garment,
+                                   const std::string& path);
 
 } // namespace sloper::garment

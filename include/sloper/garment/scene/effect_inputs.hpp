@@ -46,11 +46,11 @@ struct SceneShrink {
 };
 /// A pressed fold along a run.
 struct SceneCrease {
-  PanelRun run;          ///< the fold line
-  double angle_rad = 0;  ///< rest angle; positive folds the panel away from its outside
-  double firmness = 1;   ///< times the bending of the cloth beside it: how well it was pressed
-  std::vector<Vec2> via; ///< (s, t) of places that a curved line goes through, in order
-  bool turns = false;    ///< a roll line: cloth of loose panels starts turned over it
+  PanelRun run;               ///< the fold line
+  double angle_rad = 0;       ///< rest angle; positive folds the panel away from its outside
+  double firmness = 1;        ///< times the bending of the cloth beside it: how well it was pressed
+  std::vector<Vec2> via = {}; ///< (s, t) of places that a curved line goes through, in order
+  bool turns = false;         ///< a roll line: cloth of loose panels starts turned over it
 };
 
 /// Buttons, snaps or a zip: points of two runs that are held together once the garment is sewn.
