@@ -66,8 +66,8 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
 /// Navel: a dimple near the middle, or the proportion. @return its height
 std::optional<double> find_navel(const Finder& f) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
-  // the mean of two ways: what the rest of the body lets expect moves by 6 mm with a lean of the
-  // scan, the share of the trunk does not
+  // The mean of two estimates: the one from the population moves by 6 mm with a lean of the scan,
+  // the share of the trunk does not.
   const double by_trunk = crotch + f.number("omphalion.of_trunk") * trunk,
                expected = 0.5 * (by_trunk + f.by_population("omphalion", by_trunk));
   const auto& dimple = f.figure.navel;

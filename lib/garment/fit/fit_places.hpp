@@ -32,7 +32,7 @@ double skin_girth(const body::Body& body, const std::vector<body::Part>& parts, 
 /// #F: triangles of the garment that belong to a place. @param garment bound
 std::vector<char> cloth_of(const Garment& garment, const FitPlace& place);
 
-/// Names that rows of a fit report may have, those of limbs without _l or _r: levels and girths of
+/// Names that rows of a fit report may have, of limbs without _l or _r: levels and girths of
 /// body.json(5) that have a place, and free edges (fit_measure.hpp).
 const std::vector<std::string>& fit_row_names();
 /// Whether rows of this name of fit_row_names() come for each side, with _l and _r behind it.

@@ -86,7 +86,7 @@ void take_over(const pattern::PanelMesh& given, pattern::PanelMesh& mesh) {
   mesh.findings = findings;
 }
 
-/// Ids of edited panels are those of the drawing before the edits: they stay so.
+/// Ids of edited panels stay as in the drawing before the edits.
 void keep_ids(const pattern::PanelMesh& given, pattern::PanelMesh& mesh) {
   std::vector<Vec3> ids;
   for (const pattern::StableId& id : given.ids)

@@ -16,8 +16,8 @@ constexpr double TURNED = units::PI / 3; // a collar that lies out on the should
 // with none kept back: what was left standing had 0 to 0.13; a lapel of the jacket, which stands at
 // its narrow end and rolls softly near its line, 0.64.
 constexpr double STANDING = 0.25; // below: the line did not turn
-constexpr double MOSTLY = 0.5;    // below: it turned in part, which is told
-constexpr int SAMPLES = 200;      // of a line, to know which way it runs
+constexpr double MOSTLY = 0.5;    // below: it turned in part, which is a warning
+constexpr int SAMPLES = 200;      // of a line, for its direction
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
