@@ -213,6 +213,10 @@ int resume(cli::Tool& tool, const Options& o) {
       garment::resume_job(job, checkpoint, {garment, under}, o.body.empty() ? nullptr : &body,
                           std::cout, tool.reporter());
   std::vector<Message> findings;
+  for (const Message& finding : body.file_findings) {
+    findings.push_back(finding);
+    tool.reporter().warning(finding);
+  }
   garment::judge_roll_lines(garment, outcome, o.from, findings, tool.reporter());
   return write_out(tool, o, garment, under, body, outcome, inputs, findings);
 }
@@ -247,6 +251,7 @@ int run(cli::Tool& tool, Options& o) {
   const std::string& source = o.from.empty() ? o.panels : o.from;
   if (o.from.empty()) {
     garment.panels = pattern::read_panel_mesh(o.panels);
+    garment.file_findings = garment.panels.file_findings;
     garment.rest_scale = pattern::tape_scales(garment.panels);
   } else
     garment = garment::read_garment(o.from);
@@ -266,6 +271,10 @@ int run(cli::Tool& tool, Options& o) {
   const std::optional<double> before = garment::stretch_elsewhere(garment, skin);
   std::vector<Message> findings =
       garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
+  findings.insert(findings.end(), garment.file_findings.begin(), garment.file_findings.end());
+  findings.insert(findings.end(), body.file_findings.begin(), body.file_findings.end());
+  for (const garment::Garment& layer : layers)
+    findings.insert(findings.end(), layer.file_findings.begin(), layer.file_findings.end());
   if (!o.body.empty()) {
     for (std::size_t k = 0; k < layers.size(); ++k)
       for (const Message& finding :

@@ -221,7 +221,10 @@ int run(cli::Tool& tool, const Options& o) {
     pattern::lay_flat(source, mesh);
   else {
     mesh.body_sha256 = body::skin_sha256(o.body);
-    const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
+    const body::Body body = body::read_body(o.body);
+    for (const Message& finding : body.file_findings)
+      tool.reporter().warning(finding);
+    const pattern::PlacementReport r = pattern::place_panels(source, body, mesh);
     if (r.crossings + r.vertices_inside + r.faces_through > 0)
       tool.reporter().warning(
           {"placement.not-free"_id,

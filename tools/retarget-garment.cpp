@@ -166,6 +166,8 @@ Source read_source(cli::Tool& tool, const Options& o) {
                 "the mesh comes out as it came in, as " + io::ending_of(o.garment),
                 "end the name so, or with .json");
   body::Body from = body::read_body(o.from);
+  for (const Message& finding : from.file_findings)
+    tool.reporter().warning(finding);
   from.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
   Source source;
   source.mesh = garment::read_mesh_garment(
@@ -248,6 +250,11 @@ int run(cli::Tool& tool, Options o) {
   }
   const Source put_on = read_source(tool, o);
   const garment::Garment& source = put_on.garment;
+  std::vector<Message> file_findings = body.file_findings;
+  file_findings.insert(file_findings.end(), source.file_findings.begin(),
+                       source.file_findings.end());
+  for (const Message& finding : file_findings)
+    tool.reporter().warning(finding);
   for (const Message& doubt : garment::policy_doubts(policy, source, o.policy))
     tool.reporter().warning(doubt);
   garment::follow_fabric(source, policy);
@@ -288,6 +295,10 @@ int run(cli::Tool& tool, Options o) {
     findings.push_back(
         {"drape.stretched-place"_id,
          io::file_name(o.garment) + " on " + io::file_name(o.to) + ": " + outcome.stretched_at});
+  if (!outcome.changed_ease.empty())
+    findings.push_back(
+        {"retarget.ease-changed"_id,
+         io::file_name(o.garment) + " on " + io::file_name(o.to) + " " + outcome.changed_ease});
   for (const Message& finding : findings)
     tool.reporter().warning(finding);
   write_fit(o, fit, tool.name(), report.converged, inputs);
@@ -295,6 +306,7 @@ int run(cli::Tool& tool, Options o) {
     io::Json document = garment::report_json(report, tool.name());
     document["mode"] = o.mode;
     document["placement"] = garment::placement_json(outcome.retargeted.report);
+    findings.insert(findings.end(), file_findings.begin(), file_findings.end());
     io::put_findings(document, findings);
     if (dressed)
       document["garment_mesh"] = garment::mesh_json(*put_on.mesh, &*dressed);

@@ -35,7 +35,9 @@ Json profile_json(const SkinProfile& profile) {
   return j;
 }
 
-Json document_of(const Body& body, const std::string& tool, const std::string& mesh_name) {
+/// @param mesh_name, mesh  file name and bytes of the skin; both empty where it is not written
+Json document_of(const Body& body, const std::string& tool, const std::string& mesh_name,
+                 std::string_view mesh) {
   Json j = io::new_document("body", BODY_VERSION, tool);
   Json& scan = j["scan"] = Json::object();
   scan["file"] = body.scan.file;
@@ -64,6 +66,7 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
   if (!mesh_name.empty()) {
     j["mesh"] = mesh_name;
     j["mesh_faces"] = body.skin.triangles.size(); // an OBJ that was cut off is still an OBJ
+    io::put_mesh_hash(j, mesh);
   }
   j["stance"] = {{"class", body.stance_class},
                  {"arm_l_deg", micron(body.arm_l_deg)},
@@ -247,6 +250,7 @@ Body read_body(const std::string& path) {
   if (root.has("mesh") && root.at("mesh").is_string()) { // --anonymise leaves it out
     const std::string mesh_path = io::file_beside(root.at("mesh"));
     read_skin(mesh_path, body);
+    body.file_findings = io::mesh_findings(root, mesh_path);
     const int faces = std::ssize(body.skin.triangles);
     if (const int expected = root.integer("mesh_faces", faces); faces != expected)
       throw input_error("body.mesh-differs"_id, mesh_path, "",
@@ -290,11 +294,14 @@ io::ObjMesh in_groups(const Body& body) {
 
 void write_body(const std::string& path, const Body& body, const std::string& tool) {
   const std::string mesh_path = io::mesh_path_beside(path);
-  const std::string text = io::to_text(document_of(
-      body, tool,
-      path == "-" || body.skin.triangles.empty() ? std::string() : io::file_name(mesh_path)));
-  if (path != "-" && !body.skin.triangles.empty())
-    io::write_obj(mesh_path, in_groups(body), generator_stamp(tool));
+  if (path == "-" || body.skin.triangles.empty()) {
+    io::write_file(path, io::to_text(document_of(body, tool, {}, {})));
+    return;
+  }
+  const std::string mesh = io::obj_text(in_groups(body), generator_stamp(tool));
+  // Refuses what is not finite before any file is touched.
+  const std::string text = io::to_text(document_of(body, tool, io::file_name(mesh_path), mesh));
+  io::write_file(mesh_path, mesh);
   io::write_file(path, text);
 }
 

@@ -388,8 +388,11 @@ Redrapes read_redrapes(const Node& node, std::size_t n_particles) {
 
 Garment read_garment(const std::string& path) {
   const Json document = io::read_document(path, "garment", GARMENT_VERSION);
-  const std::string mesh_path = io::file_beside(Node(document, path).at("mesh"));
-  return garment_from(Node(document, path), io::read_obj(mesh_path), mesh_path);
+  const Node root(document, path);
+  const std::string mesh_path = io::file_beside(root.at("mesh"));
+  Garment garment = garment_from(root, io::read_obj(mesh_path), mesh_path);
+  garment.file_findings = io::mesh_findings(root, mesh_path);
+  return garment;
 }
 
 Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::string& mesh_name) {
@@ -483,7 +486,9 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
     document["bind"] = bind_json(garment.bind);
   if (garment.redrapes.count > 0)
     document["redrapes"] = redrapes_json(garment);
-  return {std::move(document), io::obj_text(obj, "garment of " + generator_stamp(tool))};
+  std::string mesh = io::obj_text(obj, "garment of " + generator_stamp(tool));
+  io::put_mesh_hash(document, mesh);
+  return {std::move(document), std::move(mesh)};
 }
 
 void write_garment(const std::string& path, const Garment& garment, const std::string& tool) {

@@ -371,4 +371,18 @@ std::string file_beside(const Node& name) {
   return path;
 }
 
+void put_mesh_hash(Json& document, std::string_view mesh_bytes) {
+  document["mesh_sha256"] = sha256(mesh_bytes);
+}
+
+std::vector<Message> mesh_findings(const Node& document, const std::string& mesh_path) {
+  const std::string written = document.string("mesh_sha256", "");
+  if (written.empty() || written == sha256(read_file(mesh_path)))
+    return {};
+  return {{"file.mesh-changed"_id,
+           mesh_path + " is not the mesh that " + file_name(document.file()) +
+               " was written with: it was changed or exchanged, and the rest of the document is "
+               "taken to hold for it; write both again"}};
+}
+
 } // namespace sloper::io

@@ -1,4 +1,5 @@
 #include <sloper/base/version.hpp>
+#include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/io/obj.hpp>
 #include <sloper/pattern/panel_mesh_json.hpp>
@@ -96,16 +97,20 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   io::put_findings(doc, mesh.findings);
   if (mesh.source)
     doc["pattern"] = pattern_json(*mesh.source, tool, PatternNumbers::EXACT);
+  const std::string bytes = io::obj_text(obj, generator_stamp(tool));
+  io::put_mesh_hash(doc, bytes);
   const std::string text = io::to_text(doc); // before anything is written
-  io::write_obj(mesh_path, obj, generator_stamp(tool));
-  io::write_json(path, doc);
+  io::write_file(mesh_path, bytes);
+  io::write_file(path, text);
 }
 
 PanelMesh read_panel_mesh(const std::string& path) {
   const io::Json json = io::read_document(path, "panels", PANELS_VERSION);
   const io::Node doc(json, path);
-  const io::ObjMesh obj = io::read_obj(io::file_beside(doc.at("mesh")));
+  const std::string mesh_path = io::file_beside(doc.at("mesh"));
+  const io::ObjMesh obj = io::read_obj(mesh_path);
   PanelMesh mesh;
+  mesh.file_findings = io::mesh_findings(doc, mesh_path);
   mesh.name = doc.string("name", "");
   mesh.edge_length = doc.number("edge_length", 0);
   mesh.seam_length = doc.number("seam_edge_length", 0);

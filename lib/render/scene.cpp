@@ -77,6 +77,10 @@ void refuse_no_document(const std::string& path) {
                       "is neither a document nor a mesh by its ending", DRAWABLE);
 }
 
+void add_findings(Scene& scene, const std::vector<Message>& findings) {
+  scene.findings.insert(scene.findings.end(), findings.begin(), findings.end());
+}
+
 void read_one(Scene& scene, const std::string& path) {
   const std::string ending = io::ending_of(path);
   if (ending == ".obj") {
@@ -94,12 +98,14 @@ void read_one(Scene& scene, const std::string& path) {
   const std::string format = drawing ? "pattern" : format_of(document, path);
   if (format == "body") {
     scene.body = body::read_body(path);
+    add_findings(scene, scene.body->file_findings);
     scene.body_mesh = static_cast<int>(scene.meshes.size());
     scene.meshes.push_back(plain_mesh(scene.body->skin, linear_color(SKIN)));
     scene.meshes.back().is_closed = is_closed(scene.body->skin);
   } else if (format == "garment") {
     scene.garments.push_back(garment::read_garment(path));
     const garment::Garment& g = scene.garments.back();
+    add_findings(scene, g.file_findings);
     scene.garment_mesh.push_back(std::ssize(scene.meshes));
     scene.meshes.push_back(cloth_mesh(g));
     scene.draped = true;
@@ -111,6 +117,7 @@ void read_one(Scene& scene, const std::string& path) {
   } else if (format == "panels") {
     garment::Garment g;
     g.panels = pattern::read_panel_mesh(path);
+    add_findings(scene, g.panels.file_findings);
     g.position = g.panels.placed;
     for (std::size_t v = 0; v < g.position.size(); ++v)
       g.particle_of.push_back(static_cast<int>(v));

@@ -52,6 +52,19 @@ TEST(BodyDocument, comes_back_as_it_was_written) {
   EXPECT_EQ(read.levels.size(), written.levels.size());
 }
 
+TEST(BodyDocument, names_an_exchanged_skin_of_the_same_topology) {
+  const Folder folder;
+  write_body(folder.file("a.json"), test::measure(test::mannequin("f-165-a").mesh).body,
+             "scan-landmarks");
+  EXPECT_TRUE(read_body(folder.file("a.json")).file_findings.empty());
+  std::string skin = io::read_file(folder.file("a.obj"));
+  skin[skin.find("\nv ") + 4] = '9';
+  io::write_file(folder.file("a.obj"), skin);
+  const Body read = read_body(folder.file("a.json"));
+  ASSERT_EQ(read.file_findings.size(), 1u);
+  EXPECT_EQ(read.file_findings[0].id, "file.mesh-changed");
+}
+
 TEST(BodyDocument, writing_twice_gives_the_same_bytes) {
   const Folder folder;
   write_body(folder.file("a.json"), test::measure(test::mannequin("f-165-a").mesh).body,

@@ -163,6 +163,18 @@ TEST_F(GarmentJson, DamagedDocumentsAreRefusedWithTheirPlace) {
   EXPECT_NE(refusal("a.obj", "v 0 1 0\n", "v nan 1 0\n").find("line"), std::string::npos);
 }
 
+TEST_F(GarmentJson, AnExchangedMeshOfTheSameTopologyIsNamed) {
+  write_garment(path("a.json"), two_squares(), "test");
+  EXPECT_TRUE(read_garment(path("a.json")).file_findings.empty());
+  io::ObjMesh other = io::read_obj(path("a.obj"));
+  for (Vec3& p : other.positions)
+    p.y() += 0.01;
+  io::write_obj(path("a.obj"), other, "of another program");
+  const Garment read = read_garment(path("a.json"));
+  ASSERT_EQ(read.file_findings.size(), 1u);
+  EXPECT_EQ(read.file_findings[0].id, "file.mesh-changed");
+}
+
 TEST_F(GarmentJson, AMissingMeshIsRefused) {
   write_garment(path("a.json"), two_squares(), "test");
   std::filesystem::remove(path("a.obj"));

@@ -128,6 +128,8 @@ struct Body {
   std::vector<std::string> body_class_why; ///< reasons for body_class
   TriangleMesh skin;                       ///< body frame, m; outward faces
   std::vector<Part> face_part;             ///< one per triangle of skin
+  /// Warnings of reading: a skin that is not the one written. Not part of the document.
+  std::vector<Message> file_findings;
   /// Keeps the prepared skin for contact (collision/skin_cache.hpp); null: it is prepared
   /// anew each time. Not part of the document.
   std::shared_ptr<collision::SkinCache> skin_cache;

@@ -70,6 +70,8 @@ struct Garment {
   /// Its rest shape is that of a mesh as it was worn: the strain that it had there is unknown.
   bool strain_unknown = false;
   std::string body_sha256; ///< of the body.obj it was draped on, or empty
+  /// Warnings of reading: a mesh that is not the one written. Not part of the document.
+  std::vector<Message> file_findings;
   /// Girths and level girths of that body, for the fit report.
   std::map<std::string, double> body_girths_m;
 

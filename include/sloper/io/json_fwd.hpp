@@ -130,5 +130,12 @@ std::string path_beside(const std::string& document_path, const std::string& nam
 /// Path of the file that a document names, beside the document. @throws Error INPUT at the name
 /// when it is not there
 std::string file_beside(const Node& name);
+/// Puts the hash of the mesh file's bytes into a document, as "mesh_sha256".
+void put_mesh_hash(Json& document, std::string_view mesh_bytes);
+/// A warning when the mesh beside a document is not the one that was written with it; empty where
+/// the document has no "mesh_sha256", as those of older programs.
+/// @param mesh_path  file_beside() of the document's "mesh"
+/// Cost: the file is read and hashed, about 50 ms for 10 MB.
+std::vector<Message> mesh_findings(const Node& document, const std::string& mesh_path);
 
 } // namespace sloper::io

@@ -331,6 +331,9 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
       return;
     }
     take_limits(policy, report, history.made_for, *row);
+    if (const auto ease = history.source_ease_m.find(row->name);
+        ease != history.source_ease_m.end())
+      row->source_ease_m = ease->second;
     judge(garment.converged, *row);
     tell_long_sleeve(report.lines, *row);
     report.rows.push_back(std::move(*row));

@@ -51,6 +51,8 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
     j["garment_m"] = {
         {"rest", r.rest_m}, {"lying", r.lying_m}, {"uncertainty", r.garment_uncertainty_m}};
     j["ease_cm"] = {{"value", 100 * r.ease_m}, {"uncertainty", 100 * r.ease_uncertainty_m}};
+    if (r.source_ease_m)
+      j["source_ease_cm"] = 100 * *r.source_ease_m;
     j["ease_percent"] = {{"value", 100 * r.ease_m / r.body_m},
                          {"uncertainty", 100 * r.ease_uncertainty_m / r.body_m}};
     j["gathered"] = r.gathered;

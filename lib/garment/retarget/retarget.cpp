@@ -4,6 +4,7 @@
 #include <garment/bind/bind_frames.hpp>
 #include <garment/bind/bind_laplacian.hpp>
 #include <garment/bind/body_sides.hpp>
+#include <garment/retarget/keep_ease.hpp>
 #include <garment/retarget/retarget_grade.hpp>
 #include <garment/retarget/seat.hpp>
 #include <garment/simulate/sleeve_ends.hpp>
@@ -177,7 +178,13 @@ void grade(Retargeted& result, const Garment& source, const std::vector<Vec3>& a
   for (const SideDifference& d : uneven_sides(to))
     sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
   result.garment.panels = source.panels;
-  const GradeReport report = regrade(result.garment, source.position, after, sides, longer);
+  Garment placed = source;
+  placed.position = after;
+  std::vector<Vec2> lengthening =
+      lengthening_for_ease(placed, ease_at_girths(placed, source.position, to));
+  for (std::size_t f = 0; f < longer.size(); ++f)
+    lengthening[f] += longer[f];
+  const GradeReport report = regrade(result.garment, source.position, after, sides, lengthening);
   result.report.mirrored_panels = report.mirrored_panels;
   result.report.findings = report.findings;
   ++result.report.gradings;
@@ -354,6 +361,8 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
   const bool keep_fit = mode == RetargetMode::KEEP_FIT;
   g.position = place_garment(garment, to, keep_fit ? Waist::OF_ALL : Waist::SEMANTIC);
   result.placed = g.position;
+  for (const EaseAtGirth& girth : ease_at_girths(g, garment.position, to))
+    result.source_ease_m[girth.name] = girth.ease_m;
   const std::vector<int> hangs_from =
       keep_fit ? std::vector<int>() : seat(result, garment, to, reporter);
   std::optional<collision::BodyCollider> mittens;

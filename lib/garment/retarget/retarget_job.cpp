@@ -1,5 +1,6 @@
 #include <sloper/garment/retarget/retarget_job.hpp>
 
+#include <garment/retarget/keep_ease.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/fit/stretch.hpp>
@@ -38,6 +39,8 @@ public:
     drape_until_it_fits();
     if (const auto place = stretched_place(stretch_of(garment())))
       m_out.stretched_at = *place;
+    if (m_job.mode == RetargetMode::KEEP_FIT)
+      m_out.changed_ease = changed_ease_text(m_out.fit);
     refuse_what_is_stuck();
     return std::move(m_out);
   }
@@ -85,7 +88,8 @@ private:
                        {.placed = &m_out.retargeted.placed,
                         .unfit = misfit_text(misfit),
                         .made_for = made.body_girths_m,
-                        .source = &m_job.source.position});
+                        .source = &m_job.source.position,
+                        .source_ease_m = m_out.retargeted.source_ease_m});
   }
 
   /// What keep-fit can mend by letting the garment out; else empty.

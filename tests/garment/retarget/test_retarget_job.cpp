@@ -53,6 +53,11 @@ TEST_F(ARetargetedSkirt, that_is_cut_anew_is_at_rest_and_fits) {
   EXPECT_TRUE(outcome.fit.fits) << outcome.fit.reason;
   EXPECT_EQ(outcome.retargeted.garment.body_sha256, "of the other");
   EXPECT_EQ(outcome.retargeted.report.gradings, 1);
+  const auto hip = std::find_if(outcome.fit.rows.begin(), outcome.fit.rows.end(),
+                                [](const FitRow& row) { return row.name == "hip"; });
+  ASSERT_NE(hip, outcome.fit.rows.end());
+  ASSERT_TRUE(hip->source_ease_m);
+  EXPECT_NEAR(hip->ease_m, *hip->source_ease_m, 0.02);
 }
 
 TEST_F(ARetargetedSkirt, that_is_too_tight_by_the_policy_is_let_out_and_draped_again) {

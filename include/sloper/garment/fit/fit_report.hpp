@@ -38,9 +38,12 @@ struct FitRow {
   bool gathered = false;  ///< pressed together as a whole, by gathers that a narrower piece holds:
                           ///< it opens no further than it lies
   double worn_strain = 0; ///< strain_girth of the same line on the body that the garment comes from
-  double bridged_m = 0;   ///< of the girth, where there is no trunk cloth: openings, under the arms
-  bool open = false;      ///< something is bridged
-  double strain_p99 = 0;  ///< of the triangles within 2 cm of the cut, or along the edge
+  /// Ease of the same cloth on the body that the garment comes from; nothing where it hung loose
+  /// or is not known.
+  std::optional<double> source_ease_m = {};
+  double bridged_m = 0;  ///< of the girth, where there is no trunk cloth: openings, under the arms
+  bool open = false;     ///< something is bridged
+  double strain_p99 = 0; ///< of the triangles within 2 cm of the cut, or along the edge
   double strain_girth = 0;      ///< lying_m / rest_m - 1: how far the girth as a whole is stretched
   std::string strain_direction; ///< "warp" or "weft": of the triangles beyond the 99th percentile
   double gap_p05_m = 0, gap_p50_m = 0; ///< cloth to skin, signed

@@ -100,6 +100,8 @@ struct Retargeted {
   /// Longer than the arms, and their ends are at the wrists: for
   /// StartFacts::hold_sleeve_ends.
   bool has_folded_sleeves = false;
+  /// Ease that the same cloth had on the first body, by girth: close ones (keep_ease.hpp).
+  std::map<std::string, double> source_ease_m = {};
   bool is_tangled = false; ///< the garment crosses body or cloth, though it was cleared
   PlacementReport report;  ///< of the placing
 };

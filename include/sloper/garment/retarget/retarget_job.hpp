@@ -28,9 +28,12 @@ struct RetargetJob {
 
 /// What came of it.
 struct RetargetOutcome {
-  Retargeted retargeted;    ///< its garment bound to the other body, in the state reached
-  DrapeReport report;       ///< of the last drape; PLACED_ONLY and NOT_DRAPED where there was none
-  FitReport fit;            ///< of the garment as it ended
+  Retargeted retargeted; ///< its garment bound to the other body, in the state reached
+  DrapeReport report;    ///< of the last drape; PLACED_ONLY and NOT_DRAPED where there was none
+  FitReport fit;         ///< of the garment as it ended
+  /// With keep-fit, after a drape: which close girths have another ease than on the first body
+  /// ("has 22.6 cm of ease at the bust, where it had 8.2 cm"), or empty.
+  std::string changed_ease;
   std::string stretched_at; ///< stretched_place() of a garment that was draped, or empty
 
   /// Whether a drape was tried.
