@@ -203,9 +203,12 @@ Vec3 to_double(Float4 v) {
 
 FloatRows to_float(const BlockRows& rows) {
   FloatRows out(rows.start, rows.column, {}, {}, false);
-  for (int i = 0; i < rows.rows; ++i)
-    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-      out.put(i, k - rows.start[i], rows.value[k]);
+  parallel_for(static_cast<std::size_t>(rows.rows), ROW_GRAIN,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+                   for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                     out.put(i, k - rows.start[i], rows.value[k]);
+               });
   return out;
 }
 
@@ -224,6 +227,19 @@ template<class Put> static void visit_row(const BlockMatrix& m, int i, const Put
     put(at++, m.column()[k], m.value()[k]);
 }
 
+/// Row i of `out`, whose rows' places are known.
+static void expand_row(const BlockMatrix& m, int i, BlockRows& out) {
+  const auto put = [&](int k, int column, const Mat3& value) {
+    out.column[out.start[i] + k] = column;
+    out.value[out.start[i] + k] = value;
+  };
+  visit_row(m, i, put);
+  int at = full_blocks(m, i);
+  for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
+    put(at++, m.isotropic()[k].column,
+        m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
+}
+
 void expand(const BlockMatrix& m, BlockRows& out) {
   out.rows = out.columns = m.size();
   out.start.assign(m.size() + 1, 0);
@@ -232,17 +248,11 @@ void expand(const BlockMatrix& m, BlockRows& out) {
         out.start[i] + full_blocks(m, i) + m.isotropic_start()[i + 1] - m.isotropic_start()[i];
   out.column.resize(out.start.back());
   out.value.resize(out.start.back());
-  for (int i = 0; i < m.size(); ++i) {
-    const auto put = [&](int k, int column, const Mat3& value) {
-      out.column[out.start[i] + k] = column;
-      out.value[out.start[i] + k] = value;
-    };
-    visit_row(m, i, put);
-    int at = full_blocks(m, i);
-    for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
-      put(at++, m.isotropic()[k].column,
-          m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
-  }
+  parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+                   expand_row(m, i, out);
+               });
 }
 
 FloatRows to_float(const BlockMatrix& m) {
@@ -295,12 +305,6 @@ namespace {
 struct alignas(32) PaddedBlock {
   double number[12] = {};
 };
-
-bool is_isotropic(const Mat3& m) {
-  const double* v = m.data();
-  return v[0] == v[4] && v[0] == v[8] && v[1] == 0 && v[2] == 0 && v[3] == 0 && v[5] == 0 &&
-         v[6] == 0 && v[7] == 0;
-}
 
 /// sum[at[l]] += a b[l] for each l below n.
 void add_products_narrow(const Mat3& a, const Mat3* b, const std::vector<int>& at,
