@@ -304,6 +304,7 @@ namespace {
 /// A block of a row that is being summed up, by columns; the fourth number of each is 0.
 struct alignas(32) PaddedBlock {
   double number[12] = {};
+  double* column(int c) { return number + 4 * c; }
 };
 
 /// sum[at[l]] += a b[l] for each l below n.
@@ -323,9 +324,11 @@ void add_products_narrow(const Mat3& a, const Mat3* b, const std::vector<int>& a
 }
 
 #if defined(__x86_64__)
+constexpr int THIRD_LANE = 0b0100, FOURTH_LANE = 0b1000;
+
 /// Three numbers; the fourth lane is 0. There must be a fourth number to read.
 SLOPER_WIDE __m256d three_of(const double* v) {
-  return _mm256_blend_pd(_mm256_loadu_pd(v), _mm256_setzero_pd(), 8);
+  return _mm256_blend_pd(_mm256_loadu_pd(v), _mm256_setzero_pd(), FOURTH_LANE);
 }
 
 /// Likewise where there is no fourth number.
@@ -344,15 +347,16 @@ SLOPER_WIDE void add_products_wide(const Mat3& a, const Mat3* b, const std::vect
   if (is_isotropic(a)) {
     const __m256d scale = _mm256_set1_pd(a(0, 0));
     for (std::size_t l = 0; l < at.size(); ++l) {
-      const double* v = b[l].data();
-      double* block = sum[at[l]].number;
-      add_to(block, _mm256_mul_pd(scale, three_of(v)));
-      add_to(block + 4, _mm256_mul_pd(scale, three_of(v + 3)));
-      add_to(block + 8, _mm256_mul_pd(scale, last_three_of(v + 6)));
+      const Mat3& from = b[l];
+      PaddedBlock& block = sum[at[l]];
+      add_to(block.column(0), _mm256_mul_pd(scale, three_of(from.col(0).data())));
+      add_to(block.column(1), _mm256_mul_pd(scale, three_of(from.col(1).data())));
+      add_to(block.column(2), _mm256_mul_pd(scale, last_three_of(from.col(2).data())));
     }
     return;
   }
-  const __m256d x = three_of(a.data()), y = three_of(a.data() + 3), z = last_three_of(a.data() + 6);
+  const __m256d x = three_of(a.col(0).data()), y = three_of(a.col(1).data()),
+                z = last_three_of(a.col(2).data());
   for (std::size_t l = 0; l < at.size(); ++l) {
     const double* v = b[l].data();
     double* block = sum[at[l]].number;
@@ -362,7 +366,7 @@ SLOPER_WIDE void add_products_wide(const Mat3& a, const Mat3* b, const std::vect
                     pz = _mm256_mul_pd(z, _mm256_broadcast_sd(v + 2));
       const __m256d upper = _mm256_add_pd(_mm256_add_pd(px, py), pz),
                     last = _mm256_add_pd(px, _mm256_add_pd(py, pz));
-      add_to(block, _mm256_blend_pd(upper, last, 4));
+      add_to(block, _mm256_blend_pd(upper, last, THIRD_LANE));
     }
   }
 }
