@@ -1,3 +1,4 @@
+#include <sloper/base/parallel.hpp>
 #include <sloper/cloth/contact/soft_body_contact.hpp>
 
 #include <algorithm>
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double FAR = 0.06;     // m: distances to the skin are not measured beyond this
 constexpr double FAR_INSIDE = 1; // m: nor beyond this for what lies deep inside
+constexpr std::size_t SAMPLE_GRAIN = 128;
 constexpr double LEAST_STIFFNESS =
     0.05; // of the full one: a force that only begins has none of its own
 
@@ -95,31 +97,45 @@ void SoftBodyContactEffect::push(const Sample& sample, const int* slots,
     context.stiffness.add_off_diagonal(slots[s], block);
 }
 
+/// The skin near the middle of a sample; a triangle of -1 where it is out of reach. What was
+/// outside and moved by less than its distance to the skin still is.
+collision::SignedDistance SoftBodyContactEffect::look(Sample& sample, const Vec3& at) const {
+  const double moved = (at - sample.at).norm();
+  if (sample.clear - moved > m_options.reach_m)
+    return {};
+  const bool outside = sample.clear > moved;
+  collision::SignedDistance d = m_body.signed_distance(at, FAR, sample.triangle);
+  sample.at = at;
+  sample.clear = FAR;
+  if (d.triangle < 0) {
+    if (outside || !m_body.is_inside(at))
+      return {};
+    sample.clear = -FAR;
+    d = m_body.signed_distance(at, FAR_INSIDE);
+    if (d.triangle < 0)
+      return {};
+  }
+  sample.triangle = d.triangle;
+  sample.clear = std::max(d.distance, 0.0);
+  return d;
+}
+
 void SoftBodyContactEffect::add(StepContext& context) {
   const std::size_t n_particles = m_samples.size() - m_slots.size();
-  for (std::size_t s = 0; s < m_samples.size(); ++s) {
-    Sample& sample = m_samples[s];
-    Vec3 at = context.x[sample.particle[0]];
-    for (int p = 1; p < sample.n; ++p)
-      at += context.x[sample.particle[p]];
-    at /= sample.n;
-    if (sample.clear - (at - sample.at).norm() > m_options.reach_m)
-      continue;
-    collision::SignedDistance d = m_body.signed_distance(at, FAR, sample.triangle);
-    sample.at = at;
-    sample.clear = FAR;
-    if (d.triangle < 0) {
-      if (!m_body.is_inside(at))
-        continue;
-      d = m_body.signed_distance(at, FAR_INSIDE);
-      if (d.triangle < 0)
-        continue;
+  m_found.resize(m_samples.size());
+  parallel_for(m_samples.size(), SAMPLE_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      Sample& sample = m_samples[s];
+      Vec3 at = context.x[sample.particle[0]];
+      for (int p = 1; p < sample.n; ++p)
+        at += context.x[sample.particle[p]];
+      m_found[s] = look(sample, at / sample.n);
     }
-    sample.triangle = d.triangle;
-    sample.clear = std::max(d.distance, 0.0);
-    if (d.distance < m_options.reach_m)
-      push(sample, s < n_particles ? nullptr : m_slots[s - n_particles].data(), d, context);
-  }
+  });
+  for (std::size_t s = 0; s < m_samples.size(); ++s)
+    if (m_found[s].triangle >= 0 && m_found[s].distance < m_options.reach_m)
+      push(m_samples[s], s < n_particles ? nullptr : m_slots[s - n_particles].data(), m_found[s],
+           context);
 }
 
 } // namespace sloper::cloth

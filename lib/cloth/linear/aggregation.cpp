@@ -71,28 +71,51 @@ void prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, const s
                  int count, double omega, BlockRows& p) {
   p.rows = a.rows;
   p.columns = count;
-  p.start.assign(1, 0);
-  p.column.clear();
-  p.value.clear();
-  std::vector<int> where(count, -1);
-  for (int i = 0; i < a.rows; ++i) {
-    const int begin = p.start.back();
-    for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
-      const int j = of[a.column[k]];
-      if (j < 0)
-        continue;
-      if (where[j] < begin) {
-        where[j] = static_cast<int>(p.column.size());
-        p.column.push_back(j);
-        p.value.push_back(Mat3::Zero());
+  p.start.assign(a.rows + 1, 0);
+  // For rows begin to end - 1: put(i, k, j) for each block k of row i and its column's aggregate.
+  const auto visit = [&](std::size_t begin, std::size_t end, const auto& put) {
+    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+      for (int k = a.start[i]; k < a.start[i + 1]; ++k)
+        if (const int j = of[a.column[k]]; j >= 0)
+          put(i, k, j);
+  };
+  const auto rows = static_cast<std::size_t>(a.rows);
+  parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> met_in(count, -1);
+    visit(begin, end, [&](int i, int, int j) {
+      p.start[i + 1] += met_in[j] != i;
+      met_in[j] = i;
+    });
+  });
+  for (int i = 0; i < a.rows; ++i)
+    p.start[i + 1] += p.start[i];
+  p.column.resize(p.start.back());
+  p.value.assign(p.start.back(), Mat3::Zero());
+  parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> where(count, -1);
+    int row = -1, next = 0;
+    Mat3 scaled;
+    visit(begin, end, [&](int i, int k, int j) {
+      if (i != row) {
+        row = i;
+        next = p.start[i];
+        scaled = -omega * d_inverse[i];
       }
-      Mat3 smoother = -omega * d_inverse[i] * a.value[k];
+      if (where[j] < p.start[i]) {
+        where[j] = next++;
+        p.column[where[j]] = j;
+      }
+      const Mat3& block = a.value[k];
+      Mat3 smoother;
+      if (is_isotropic(block))
+        smoother = block(0, 0) * scaled;
+      else
+        smoother.noalias() = scaled * block;
       if (a.column[k] == i)
         smoother += Mat3::Identity();
       p.value[where[j]] += smoother;
-    }
-    p.start.push_back(std::ssize(p.column));
-  }
+    });
+  });
 }
 
 } // namespace
@@ -198,6 +221,9 @@ void Aggregation::estimate_lambda(std::size_t l, int iterations) {
 
 void Aggregation::build(const LinearSystem& system) {
   ++rebuilds;
+  FloatRows finest = m_levels.empty() ? FloatRows() : std::move(m_levels[0].a);
+  if (finest.rows() != system.matrix.size())
+    finest = to_float(system.matrix);
   m_levels.clear();
   m_levels.emplace_back();
   auto& [a, p, pt, ap] = m_build;
@@ -215,13 +241,15 @@ void Aggregation::build(const LinearSystem& system) {
     const std::vector<Mat3> diagonal = block_diagonal(a);
     std::vector<Mat3> d_inverse(a.rows);
     fine.d_inverse.resize(a.rows);
-    for (int i = 0; i < a.rows; ++i) {
-      d_inverse[i] = diagonal[i].inverse();
-      fine.d_inverse[i] = to_float(d_inverse[i]);
-    }
+    parallel_for(d_inverse.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        d_inverse[i] = diagonal[i].inverse();
+        fine.d_inverse[i] = to_float(d_inverse[i]);
+      }
+    });
     for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d})
       v->assign(a.rows, Float4::all(0));
-    fine.a = m_levels.size() == 1 ? to_float(system.matrix) : to_float(a);
+    fine.a = m_levels.size() == 1 ? std::move(finest) : to_float(a);
     if (m_levels.size() == 1)
       copy_finest(system); // which has the contacts apart
     if (a.rows <= COARSEST_ROWS || m_levels.size() > 8)

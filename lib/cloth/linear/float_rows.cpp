@@ -159,8 +159,6 @@ SLOPER_WIDE void times_wide(const Group& group, const Float4* x, Float4* row) {
   }
 }
 
-#undef SLOPER_WIDE
-
 const bool HAS_WIDE = __builtin_cpu_supports("avx");
 bool wide = HAS_WIDE;
 #endif
@@ -205,9 +203,12 @@ Vec3 to_double(Float4 v) {
 
 FloatRows to_float(const BlockRows& rows) {
   FloatRows out(rows.start, rows.column, {}, {}, false);
-  for (int i = 0; i < rows.rows; ++i)
-    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-      out.put(i, k - rows.start[i], rows.value[k]);
+  parallel_for(static_cast<std::size_t>(rows.rows), ROW_GRAIN,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+                   for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+                     out.put(i, k - rows.start[i], rows.value[k]);
+               });
   return out;
 }
 
@@ -226,6 +227,19 @@ template<class Put> static void visit_row(const BlockMatrix& m, int i, const Put
     put(at++, m.column()[k], m.value()[k]);
 }
 
+/// Row i of `out`, whose rows' places are known.
+static void expand_row(const BlockMatrix& m, int i, BlockRows& out) {
+  const auto put = [&](int k, int column, const Mat3& value) {
+    out.column[out.start[i] + k] = column;
+    out.value[out.start[i] + k] = value;
+  };
+  visit_row(m, i, put);
+  int at = full_blocks(m, i);
+  for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
+    put(at++, m.isotropic()[k].column,
+        m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
+}
+
 void expand(const BlockMatrix& m, BlockRows& out) {
   out.rows = out.columns = m.size();
   out.start.assign(m.size() + 1, 0);
@@ -234,17 +248,11 @@ void expand(const BlockMatrix& m, BlockRows& out) {
         out.start[i] + full_blocks(m, i) + m.isotropic_start()[i + 1] - m.isotropic_start()[i];
   out.column.resize(out.start.back());
   out.value.resize(out.start.back());
-  for (int i = 0; i < m.size(); ++i) {
-    const auto put = [&](int k, int column, const Mat3& value) {
-      out.column[out.start[i] + k] = column;
-      out.value[out.start[i] + k] = value;
-    };
-    visit_row(m, i, put);
-    int at = full_blocks(m, i);
-    for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
-      put(at++, m.isotropic()[k].column,
-          m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
-  }
+  parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+                   expand_row(m, i, out);
+               });
 }
 
 FloatRows to_float(const BlockMatrix& m) {
@@ -291,47 +299,145 @@ void transpose(const BlockRows& a, BlockRows& t) {
     }
 }
 
+namespace {
+
+/// A block of a row that is being summed up, by columns; the fourth number of each is 0.
+struct alignas(32) PaddedBlock {
+  double number[12] = {};
+  double* column(int c) { return number + 4 * c; }
+};
+
+/// sum[at[l]] += a b[l] for each l below n.
+void add_products_narrow(const Mat3& a, const Mat3* b, const std::vector<int>& at,
+                         std::vector<PaddedBlock>& sum) {
+  const bool isotropic = is_isotropic(a);
+  for (std::size_t l = 0; l < at.size(); ++l) {
+    Mat3 ab;
+    if (isotropic)
+      ab = a(0, 0) * b[l];
+    else
+      ab.noalias() = a * b[l];
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r)
+        sum[at[l]].number[4 * c + r] += ab(r, c);
+  }
+}
+
+#if defined(__x86_64__)
+constexpr int THIRD_LANE = 0b0100, FOURTH_LANE = 0b1000;
+
+/// Three numbers; the fourth lane is 0. There must be a fourth number to read.
+SLOPER_WIDE __m256d three_of(const double* v) {
+  return _mm256_blend_pd(_mm256_loadu_pd(v), _mm256_setzero_pd(), FOURTH_LANE);
+}
+
+/// Likewise where there is no fourth number.
+SLOPER_WIDE __m256d last_three_of(const double* v) {
+  return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(v)), _mm_load_sd(v + 2), 1);
+}
+
+SLOPER_WIDE void add_to(double* sum, __m256d v) {
+  _mm256_store_pd(sum, _mm256_add_pd(_mm256_load_pd(sum), v));
+}
+
+/// Likewise, the same bits: Eigen adds the products of the first two rows from the left, those of
+/// the third from the right.
+SLOPER_WIDE void add_products_wide(const Mat3& a, const Mat3* b, const std::vector<int>& at,
+                                   std::vector<PaddedBlock>& sum) {
+  if (is_isotropic(a)) {
+    const __m256d scale = _mm256_set1_pd(a(0, 0));
+    for (std::size_t l = 0; l < at.size(); ++l) {
+      const Mat3& from = b[l];
+      PaddedBlock& block = sum[at[l]];
+      add_to(block.column(0), _mm256_mul_pd(scale, three_of(from.col(0).data())));
+      add_to(block.column(1), _mm256_mul_pd(scale, three_of(from.col(1).data())));
+      add_to(block.column(2), _mm256_mul_pd(scale, last_three_of(from.col(2).data())));
+    }
+    return;
+  }
+  const __m256d x = three_of(a.col(0).data()), y = three_of(a.col(1).data()),
+                z = last_three_of(a.col(2).data());
+  for (std::size_t l = 0; l < at.size(); ++l) {
+    const double* v = b[l].data();
+    double* block = sum[at[l]].number;
+    for (int c = 0; c < 3; ++c, v += 3, block += 4) {
+      const __m256d px = _mm256_mul_pd(x, _mm256_broadcast_sd(v)),
+                    py = _mm256_mul_pd(y, _mm256_broadcast_sd(v + 1)),
+                    pz = _mm256_mul_pd(z, _mm256_broadcast_sd(v + 2));
+      const __m256d upper = _mm256_add_pd(_mm256_add_pd(px, py), pz),
+                    last = _mm256_add_pd(px, _mm256_add_pd(py, pz));
+      add_to(block, _mm256_blend_pd(upper, last, THIRD_LANE));
+    }
+  }
+}
+#endif
+
+void add_products(const Mat3& a, const Mat3* b, const std::vector<int>& at,
+                  std::vector<PaddedBlock>& sum) {
+#if defined(__x86_64__)
+  if (wide)
+    return add_products_wide(a, b, at, sum);
+#endif
+  add_products_narrow(a, b, at, sum);
+}
+
+/// Counts the blocks of rows begin to end - 1 of a b: counts[i + 1] of row i.
+void count_product(const BlockRows& a, const BlockRows& b, std::size_t begin, std::size_t end,
+                   std::vector<int>& counts) {
+  std::vector<int> met_in(b.columns, -1);
+  for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+    for (int k = a.start[i]; k < a.start[i + 1]; ++k)
+      for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l) {
+        counts[i + 1] += met_in[b.column[l]] != i;
+        met_in[b.column[l]] = i;
+      }
+}
+
+/// Rows begin to end - 1 of c = a b, whose rows' places are known.
+void fill_product(const BlockRows& a, const BlockRows& b, std::size_t begin, std::size_t end,
+                  BlockRows& c) {
+  std::vector<int> where(b.columns, -1), at;
+  std::vector<PaddedBlock> sum;
+  for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
+    const int first = c.start[i];
+    int next = first;
+    sum.assign(c.start[i + 1] - first, {});
+    for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
+      const int row = a.column[k];
+      at.clear();
+      for (int l = b.start[row]; l < b.start[row + 1]; ++l) {
+        int& place = where[b.column[l]];
+        if (place < first) {
+          place = next++;
+          c.column[place] = b.column[l];
+        }
+        at.push_back(place - first);
+      }
+      add_products(a.value[k], b.value.data() + b.start[row], at, sum);
+    }
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      for (int column = 0; column < 3; ++column)
+        for (int r = 0; r < 3; ++r)
+          c.value[first + k](r, column) = sum[k].number[4 * column + r];
+  }
+}
+
+} // namespace
+
 void product(const BlockRows& a, const BlockRows& b, BlockRows& c) {
   c.rows = a.rows;
   c.columns = b.columns;
   c.start.assign(a.rows + 1, 0);
-  // For rows begin to end - 1: put(i, k, l, j) for each pair of blocks k of a and l of b that meet
-  // in column j of row i.
-  const auto visit = [&](std::size_t begin, std::size_t end, const auto& put) {
-    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
-      for (int k = a.start[i]; k < a.start[i + 1]; ++k)
-        for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l)
-          put(i, k, l, b.column[l]);
-  };
   const auto rows = static_cast<std::size_t>(a.rows);
   parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    std::vector<int> met_in(b.columns, -1);
-    visit(begin, end, [&](int i, int, int, int j) {
-      c.start[i + 1] += met_in[j] != i;
-      met_in[j] = i;
-    });
+    count_product(a, b, begin, end, c.start);
   });
   for (int i = 0; i < a.rows; ++i)
     c.start[i + 1] += c.start[i];
   c.column.resize(c.start.back());
   c.value.resize(c.start.back());
-  parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    std::vector<int> where(b.columns, -1);
-    int row = -1, next = 0;
-    visit(begin, end, [&](int i, int k, int l, int j) {
-      if (i != row) {
-        row = i;
-        next = c.start[i];
-      }
-      if (where[j] < c.start[i]) {
-        where[j] = next++;
-        c.column[where[j]] = j;
-        c.value[where[j]].noalias() = a.value[k] * b.value[l];
-      } else {
-        c.value[where[j]].noalias() += a.value[k] * b.value[l];
-      }
-    });
-  });
+  parallel_for(rows, ROW_GRAIN,
+               [&](std::size_t begin, std::size_t end) { fill_product(a, b, begin, end, c); });
 }
 
 std::vector<Mat3> block_diagonal(const BlockRows& a) {
@@ -342,5 +448,9 @@ std::vector<Mat3> block_diagonal(const BlockRows& a) {
         d[i] += a.value[k];
   return d;
 }
+
+#if defined(__x86_64__)
+#undef SLOPER_WIDE
+#endif
 
 } // namespace sloper::cloth

@@ -95,6 +95,13 @@ FloatBlock to_float(const Mat3& m);
 Vec3 to_double(Float4 v);
 FloatRows to_float(const BlockRows& rows);
 
+/// Whether m is a multiple of the identity.
+inline bool is_isotropic(const Mat3& m) {
+  const double* v = m.data();
+  return v[0] == v[4] && v[0] == v[8] && v[1] == 0 && v[2] == 0 && v[3] == 0 && v[5] == 0 &&
+         v[6] == 0 && v[7] == 0;
+}
+
 /// The whole matrix of a symmetric one that keeps its upper triangle; isotropic blocks come last in
 /// a row.
 void expand(const BlockMatrix& m, BlockRows& out);

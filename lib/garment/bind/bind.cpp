@@ -29,8 +29,13 @@ void bind_garment(Garment& garment, const body::Body& body) {
   if (garment.particle_of.empty() || garment.position.empty())
     throw input_error("garment.not-sewn"_id, "", "",
                       "the garment is not sewn, so it hangs on nothing", "drape it first");
-  const BindFrames frames = make_bind_frames(body);
+  BindFrames frames = make_bind_frames(body);
   const auto weights = bind_weights(garment, body, frames);
+  std::vector<char> needed(frames.frames.size(), 0);
+  for (const auto& of_particle : weights)
+    for (const auto& [k, weight] : of_particle)
+      needed[k] = 1;
+  fit_profiles(frames, body, needed);
   Bind bind;
   for (const BindFrame& f : frames.frames) {
     bind.frames.push_back(f.name);
@@ -54,7 +59,7 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
   if (bind.empty())
     throw input_error("garment.not-bound"_id, "", "/bind", "the garment is not bound to a body",
                       "drape it on a body first");
-  const BindFrames frames = make_bind_frames(body);
+  BindFrames frames = make_bind_frames(body);
   std::vector<int> target(bind.frames.size(), -1);
   std::vector<MarkMap> maps;
   for (std::size_t k = 0; k < bind.frames.size(); ++k) {
@@ -66,6 +71,12 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
     maps.emplace_back(marks.first, bind.lengths_m[k], marks.second,
                       to ? to->frame.length() : bind.lengths_m[k]);
   }
+  std::vector<char> needed(frames.frames.size(), 0);
+  for (const std::vector<BindWeight>& weights : bind.particles)
+    for (const BindWeight& w : weights)
+      if (target[w.frame] >= 0)
+        needed[target[w.frame]] = 1;
+  fit_profiles(frames, body, needed);
   std::vector<Vec3> placed(bind.particles.size(), Vec3::Zero());
   for (std::size_t i = 0; i < placed.size(); ++i) {
     double there = 0; // a collar does without the head, as long as it hangs on the torso as well

@@ -34,12 +34,12 @@ const char* MARKS_BY_WEIGHT[] = {"neck_side", "crotch", "acromion", "axilla",
 constexpr std::pair<const char*, double> WAISTS[] = {
     {"waist", 0.015}, {"waist_girth_min", 0.010}, {"waist_width_min", 0.010}};
 
-bool in(Part part, std::initializer_list<Part> parts) {
+bool in(Part part, const std::vector<Part>& parts) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
 }
 
 /// Points on the faces of some parts, dense enough to leave no profile cell empty by chance.
-std::vector<Vec3> sample_skin(const Body& body, std::initializer_list<Part> parts) {
+std::vector<Vec3> sample_skin(const Body& body, const std::vector<Part>& parts) {
   std::vector<Vec3> points;
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
     if (!in(body.face_part[f], parts))
@@ -123,9 +123,8 @@ PartFrame body_frame(const Body& body, const std::string& name, const Vec3& lowe
 }
 
 void add_frame(BindFrames& all, const std::string& name, const PartFrame& frame,
-               const std::vector<Vec3>& points, double z_low, double z_high) {
-  all.frames.push_back(
-      {name, frame, fit_skin_profile(frame, points, z_low, z_high, PROFILE_SIGMA), {}});
+               std::vector<Part> parts, double z_low, double z_high) {
+  all.frames.push_back({name, frame, std::move(parts), z_low, z_high, {}, {}});
 }
 
 std::map<std::string, double> torso_marks(const Body& body, const PartFrame& frame) {
@@ -250,13 +249,12 @@ BindFrames make_bind_frames(const Body& body) {
                       "a garment cannot be hung on this body");
   const PartFrame torso =
       body_frame(body, "torso", hip.value_or(Vec3::Zero()), neck.value_or(Vec3::UnitY()));
-  add_frame(all, "torso", torso,
-            sample_skin(body, {Part::TORSO, Part::LEG_L, Part::LEG_R, Part::HEAD}), -0.5, 1.2);
+  add_frame(all, "torso", torso, {Part::TORSO, Part::LEG_L, Part::LEG_R, Part::HEAD}, -0.5, 1.2);
   all.frames.back().marks = torso_marks(body, torso);
   if (body.frames.count("head") || (neck && tip))
     add_frame(all, "head",
               body_frame(body, "head", torso.upper, tip.value_or(torso.upper + Vec3(0, 0.25, 0))),
-              sample_skin(body, {Part::HEAD, Part::TORSO}), -0.5, 2);
+              {Part::HEAD, Part::TORSO}, -0.5, 2);
 
   std::map<Part, ArmJoints> arms;
   for (const auto& [part, side] :
@@ -268,22 +266,23 @@ BindFrames make_bind_frames(const Body& body) {
     arms[part] = *joints;
     const bool mirrored = side == "r";
     add_frame(all, "upper_arm_" + side,
-              make_part_frame(joints->elbow, joints->shoulder, Vec3::UnitZ(), mirrored), skin,
+              make_part_frame(joints->elbow, joints->shoulder, Vec3::UnitZ(), mirrored), {part},
               -0.35, 1.4);
     add_frame(all, "forearm_" + side,
-              make_part_frame(joints->wrist, joints->elbow, Vec3::UnitZ(), mirrored), skin, -1.5,
+              make_part_frame(joints->wrist, joints->elbow, Vec3::UnitZ(), mirrored), {part}, -1.5,
               1.3);
   }
   for (const auto& [part, side] :
        {std::pair{Part::LEG_L, std::string("l")}, std::pair{Part::LEG_R, std::string("r")}}) {
     const auto ankle = landmark_of(body, "ankle_" + side),
                joint = landmark_of(body, "hip_joint_" + side);
-    const std::vector<Vec3> skin = sample_skin(body, {part});
-    if (skin.empty() || !(body.frames.count("leg_" + side) || (ankle && joint)))
+    const bool has_skin =
+        std::find(body.face_part.begin(), body.face_part.end(), part) != body.face_part.end();
+    if (!has_skin || !(body.frames.count("leg_" + side) || (ankle && joint)))
       continue;
     const PartFrame frame = body_frame(body, "leg_" + side, ankle.value_or(Vec3::Zero()),
                                        joint.value_or(Vec3::UnitY()));
-    add_frame(all, "leg_" + side, frame, skin, -0.5, 1.5);
+    add_frame(all, "leg_" + side, frame, {part}, -0.5, 1.5);
     if (const auto knee = landmark_of(body, "knee_" + side))
       all.frames.back().marks["knee"] = frame.coordinates(*knee).z;
     if (const auto crotch = landmark_of(body, "crotch"))
@@ -293,8 +292,7 @@ BindFrames make_bind_frames(const Body& body) {
   if (leg_l >= 0 && leg_r >= 0) {
     const Vec3 ankles = 0.5 * (all.frames[leg_l].frame.lower + all.frames[leg_r].frame.lower);
     const PartFrame frame = body_frame(body, "lower_body", ankles, torso.lower);
-    add_frame(all, "lower_body", frame, sample_skin(body, {Part::LEG_L, Part::LEG_R, Part::TORSO}),
-              -0.5, 1.4);
+    add_frame(all, "lower_body", frame, {Part::LEG_L, Part::LEG_R, Part::TORSO}, -0.5, 1.4);
     if (const auto crotch = landmark_of(body, "crotch"))
       all.frames.back().marks["crotch"] = frame.coordinates(*crotch).z;
   }
@@ -320,6 +318,15 @@ BindFrames make_bind_frames(const Body& body) {
     all.frame_of_face.push_back(name.empty() ? -1 : all.index(name));
   }
   return all;
+}
+
+void fit_profiles(BindFrames& frames, const Body& body, const std::vector<char>& needed) {
+  for (std::size_t k = 0; k < frames.frames.size(); ++k) {
+    BindFrame& f = frames.frames[k];
+    if (needed[k])
+      f.profile =
+          fit_skin_profile(f.frame, sample_skin(body, f.parts), f.z_low, f.z_high, PROFILE_SIGMA);
+  }
 }
 
 std::pair<Marks, Marks> with_one_waist(Marks from, Marks to) {

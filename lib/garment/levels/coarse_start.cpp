@@ -3,6 +3,7 @@
 #include <garment/levels/soft_sewing.hpp>
 #include <garment/levels/turned_leaves.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
 #include <sloper/collision/topology.hpp>
 #include <sloper/garment/simulate/telemetry.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
@@ -28,7 +29,8 @@ constexpr SoftRelaxing FINE_RELAXING = {
 constexpr int CLEARING_ROUNDS = 6;
 constexpr double CLEARANCE = 1.1;      // times the contact gap
 constexpr double CLEARING_REACH = 0.1; // m
-constexpr double LEAF_GAP = 0.003;     // m between turned cloth and what it lies on
+constexpr std::size_t PARTICLE_GRAIN = 128;
+constexpr double LEAF_GAP = 0.003; // m between turned cloth and what it lies on
 
 using Clock = std::chrono::steady_clock;
 
@@ -40,7 +42,7 @@ double seconds_since(Clock::time_point start) {
 void clear_of_skin(Garment& garment, const collision::BodyCollider& skin, double gap) {
   const std::vector<Triangle> triangles = garment.particle_triangles();
   const collision::Topology topology = collision::make_topology(garment.position.size(), triangles);
-  std::vector<int> hint(garment.position.size(), -1);
+  std::vector<collision::SignedDistance> near(garment.position.size());
   for (int round = 0; round < CLEARING_ROUNDS; ++round) {
     std::vector<Vec3> out(garment.position.size(), Vec3::Zero());
     bool any = false;
@@ -49,13 +51,13 @@ void clear_of_skin(Garment& garment, const collision::BodyCollider& skin, double
       if (by.squaredNorm() > out[i].squaredNorm())
         out[i] = by;
     };
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const collision::SignedDistance d =
-          skin.signed_distance(garment.position[i], CLEARING_REACH, hint[i]);
-      hint[i] = d.triangle;
-      if (d.triangle >= 0 && d.distance < gap)
-        push(i, (gap - d.distance) * d.normal);
-    }
+    parallel_for(near.size(), PARTICLE_GRAIN, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        near[i] = skin.signed_distance(garment.position[i], CLEARING_REACH, near[i].triangle);
+    });
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (near[i].triangle >= 0 && near[i].distance < gap)
+        push(i, (gap - near[i].distance) * near[i].normal);
     for (const collision::FaceContact& c :
          skin.face_contacts(garment.position, triangles, topology, gap)) {
       if (c.distance >= gap)

@@ -30,7 +30,7 @@ SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter)
 
 /// How relax_softly() goes.
 struct SoftRelaxing {
-  int steps = 60;
+  int steps = 40;
   double bending =
       100; ///< times that of the fabric at first; that of the fabric from half of the steps on
   double reach_m = 0.012, last_reach_m = 0.012; ///< of the soft contact, at first and at the end

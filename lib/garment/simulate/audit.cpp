@@ -1,4 +1,5 @@
 #include <garment/simulate/audit.hpp>
+#include <sloper/base/parallel.hpp>
 #include <sloper/collision/intersections.hpp>
 #include <sloper/garment/fit/cloth_strain.hpp>
 
@@ -6,6 +7,8 @@
 #include <cmath>
 
 namespace sloper::garment {
+
+static constexpr std::size_t PARTICLE_GRAIN = 128;
 
 static void measure_strain(const Garment& garment, Audit& result) {
   std::vector<Weighted> warp, weft, bias, thread;
@@ -33,6 +36,20 @@ static void measure_strain(const Garment& garment, Audit& result) {
   result.strain_max = of_all[2];
 }
 
+std::vector<int> inside_body(const std::vector<Vec3>& positions,
+                             const collision::BodyCollider& body) {
+  std::vector<char> inside(positions.size(), 0);
+  parallel_for(positions.size(), PARTICLE_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      inside[i] = static_cast<char>(body.is_inside(positions[i]));
+  });
+  std::vector<int> found;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (inside[i])
+      found.push_back(static_cast<int>(i));
+  return found;
+}
+
 Audit audit(const Garment& garment, const collision::BodyCollider* body) {
   Audit result;
   const std::vector<Triangle> triangles = garment.particle_triangles();
@@ -42,14 +59,10 @@ Audit audit(const Garment& garment, const collision::BodyCollider* body) {
   if (!body)
     return result;
   result.through = body->faces_through(garment.position, triangles);
-  for (std::size_t i = 0; i < garment.position.size(); ++i) {
-    const Vec3& p = garment.position[i];
-    if (!body->is_inside(p))
-      continue;
-    result.inside.push_back(static_cast<int>(i));
-    result.deepest_m =
-        std::max(result.deepest_m, std::abs(body->signed_distance(p, 1e30).distance));
-  }
+  result.inside = inside_body(garment.position, *body);
+  for (const int i : result.inside)
+    result.deepest_m = std::max(
+        result.deepest_m, std::abs(body->signed_distance(garment.position[i], 1e30).distance));
   return result;
 }
 

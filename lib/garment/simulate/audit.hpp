@@ -21,4 +21,8 @@ struct Audit {
 /// @param body nullptr for none
 Audit audit(const Garment& garment, const collision::BodyCollider* body);
 
+/// The particles at these positions that are inside the body, ascending. On all threads.
+std::vector<int> inside_body(const std::vector<Vec3>& positions,
+                             const collision::BodyCollider& body);
+
 } // namespace sloper::garment

@@ -1,3 +1,4 @@
+#include <garment/simulate/audit.hpp>
 #include <sloper/collision/intersections.hpp>
 #include <sloper/collision/untangle.hpp>
 #include <sloper/garment/simulate/penetration_resolver.hpp>
@@ -28,10 +29,8 @@ PenetrationResolver::PenetrationResolver(SimulatedCloth& cloth, CollisionBody& b
 std::size_t PenetrationResolver::count_in_body() const {
   const collision::BodyCollider* skin = m_body.collider();
   const std::vector<Vec3>& position = m_cloth.garment().position;
-  std::size_t count = skin->faces_through(position, m_cloth.garment().particle_triangles()).size();
-  for (const Vec3& p : position)
-    count += skin->is_inside(p);
-  return count;
+  return skin->faces_through(position, m_cloth.garment().particle_triangles()).size() +
+         inside_body(position, *skin).size();
 }
 
 void PenetrationResolver::log_crossings(const char* when) const {

@@ -76,6 +76,23 @@ TEST(SoftBodyContact, a_skin_that_came_nearer_is_looked_for_again) {
   EXPECT_GT(force_of(effect, grid.mesh.n_particles, x, matrix)[4].y(), 0);
 }
 
+TEST(SoftBodyContact, cloth_that_went_far_into_the_body_since_it_was_seen_outside_is_pushed_out) {
+  const Grid grid = make_grid(3, 0.06);
+  const collision::BodyCollider body(block());
+  SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = LEVEL, .stiffness_n_m3 = 1e4});
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(grid.mesh.n_particles, couplings);
+  effect.bind(matrix);
+  std::vector<Vec3> x = grid.x;
+  for (const double height : {0.3, 0.1, -0.1, -0.15}) {
+    for (Vec3& p : x)
+      p.y() = height;
+    const double push = force_of(effect, grid.mesh.n_particles, x, matrix)[4].y();
+    EXPECT_EQ(push > 0, height < 0) << height;
+  }
+}
+
 TEST(SoftBodyContact, a_thumb_below_the_middle_of_a_face_is_felt_there) {
   const Grid grid = make_grid(3, 0.06);
   const Triangle t = grid.mesh.particle_triangles()[0];

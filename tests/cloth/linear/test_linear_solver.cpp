@@ -170,6 +170,30 @@ TEST(FloatRows, gives_the_same_bytes_with_wide_registers_and_without) {
   }
 }
 
+TEST(BlockRows, products_are_those_of_whole_matrices_and_the_same_bytes_on_wide_registers) {
+  const System s = make_system(7, 0.1, true);
+  BlockRows a;
+  expand(s.matrix, a);
+  const int n = a.rows;
+  const auto whole = [n](const BlockRows& rows) {
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+    for (int i = 0; i < n; ++i)
+      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        m.block<3, 3>(3 * i, 3 * rows.column[k]) += rows.value[k];
+    return m;
+  };
+  BlockRows square[2];
+  for (int wide : {0, 1}) {
+    FloatRows::allow_wide(wide != 0);
+    product(a, a, square[wide]);
+  }
+  const Eigen::MatrixXd expected = whole(a) * whole(a);
+  EXPECT_LT((whole(square[1]) - expected).norm(), 1e-12 * expected.norm());
+  EXPECT_EQ(square[0].column, square[1].column);
+  EXPECT_EQ(0, std::memcmp(square[0].value.data(), square[1].value.data(),
+                           square[0].value.size() * sizeof(Mat3)));
+}
+
 /// The system solved with a preconditioner fresh for it.
 template<class Preconditioner>
 CgResult solve_with(const LinearSystem& system, const std::vector<Vec3>& rhs, double tolerance,

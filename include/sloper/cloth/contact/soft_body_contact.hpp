@@ -50,18 +50,20 @@ private:
     int n;             // of them
     double area;       // m2
     int triangle = -1; // of the skin, the nearest when it was last looked for
-    double clear = -1; // m: it was not nearer than this at `at`; below zero: not known
+    double clear = -1; // m: it was outside and not nearer than this at `at`, where above zero
     Vec3 at = Vec3::Zero();
   };
   void add_edges_and_faces(const ClothMesh& mesh);
+  collision::SignedDistance look(Sample& sample, const Vec3& at) const;
   void push(const Sample& sample, const int* slots, const collision::SignedDistance& d,
             StepContext& context) const;
   const collision::BodyCollider& m_body;
   SoftBodyContactOptions m_options;
   std::vector<std::array<int, 2>> m_edges;
   std::vector<std::array<int, 3>> m_face_edges;
-  std::vector<Sample> m_samples;           // particles, then edges, then faces
-  std::vector<std::array<int, 3>> m_slots; // of edges, then faces
+  std::vector<Sample> m_samples;                  // particles, then edges, then faces
+  std::vector<collision::SignedDistance> m_found; // of each sample, in the present step
+  std::vector<std::array<int, 3>> m_slots;        // of edges, then faces
 };
 
 } // namespace sloper::cloth
