@@ -236,6 +236,8 @@ private:
   /// hands agree with the panels that are known.
   void by_shape() {
     constexpr double SURE = 0.8; // on 60 fresh specifications 695 of 695 parts were right at that
+    constexpr double UNSURE =
+        1; // log-odds; of 238 fresh specifications 5 had less, 2 of the 3 turned ones
     std::vector<std::size_t> unnamed;
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (!m_known[k] && !says_anything(m_words[k]))
@@ -263,6 +265,7 @@ private:
       if (part == "arm" && hand == 0)
         continue;
       role.by_shape = true;
+      role.unsure_front = faces == 0 && shape.face_odds < UNSURE;
       role.part.clear();
       role.side = back ? Side::BACK : Side::FRONT;
       role.theta = back ? units::PI : 0;

@@ -20,7 +20,7 @@ constexpr std::size_t OWN_CLUES = 24; // of a panel alone; those with others' pa
 
 } // namespace
 
-ShapeWitness::ShapeWitness(const Pattern& pattern) {
+ShapeWitness::ShapeWitness(const Pattern& pattern) : m_faces(pattern) {
   const std::vector<SeamSide> sides = seam_sides(pattern, all_corners(pattern), 0);
   const SeamWitness pairs(pattern, sides);
   const auto mirrors = panel_mirrors(pattern);
