@@ -78,14 +78,14 @@ int Placer::find_unclassified() {
       continue;
     names += (count++ ? ", " : "") + panel.name;
   }
-  if (!shaped.empty())
-    m_mesh.findings.push_back(
-        {"placement.by-shape"_id, "start: placed by their shapes: " + shaped});
   if (!fronts.empty())
     m_mesh.findings.push_back({"placement.front-unsure"_id,
                                "start: is " + fronts +
                                    " the front? Front and back differ too little to tell; if it is "
                                    "the back, put the word back into the name of one of them"});
+  if (!shaped.empty())
+    m_mesh.findings.push_back(
+        {"placement.by-shape"_id, "start: placed by their shapes: " + shaped});
   if (count > 0)
     m_mesh.findings.push_back(
         {"placement.guessed"_id,

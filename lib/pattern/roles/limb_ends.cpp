@@ -1,4 +1,5 @@
 #include <pattern/roles/limb_ends.hpp>
+#include <sloper/geometry/polygon.hpp>
 
 #include <cmath>
 
@@ -36,14 +37,7 @@ private:
   }
 
   double area(std::size_t k) const {
-    const std::vector<int>& outline = m_mesh.panels[k].outline;
-    double sum = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2 &a = m_mesh.pattern[outline[i]],
-                 &b = m_mesh.pattern[outline[(i + 1) % outline.size()]];
-      sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-    return std::abs(sum);
+    return polygon_area(m_mesh.pattern, m_mesh.panels[k].outline);
   }
   double sewn_length(std::size_t p, std::size_t q) const {
     double sum = 0;

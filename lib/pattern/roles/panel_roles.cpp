@@ -6,6 +6,7 @@
 #include <pattern/roles/ring_roles.hpp>
 #include <pattern/roles/shape_roles.hpp>
 #include <sloper/base/units.hpp>
+#include <sloper/geometry/polygon.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -344,14 +345,7 @@ private:
     return sum / static_cast<double>(seam.size());
   }
   double area(std::size_t k) const {
-    const auto& outline = m_mesh.panels[k].outline;
-    double sum = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2 &a = m_mesh.pattern[outline[i]],
-                 &b = m_mesh.pattern[outline[(i + 1) % outline.size()]];
-      sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-    return std::abs(sum);
+    return polygon_area(m_mesh.pattern, m_mesh.panels[k].outline);
   }
 
   /// Cuffs belong to sleeves, unless they are sewn to other panels only: to trousers.
