@@ -55,6 +55,8 @@ std::optional<Gore> gore_of(const Pattern& pattern, int p) {
   best.cloth = panel.area();
   for (int e = (best.right + 1) % n; e != best.left; e = (e + 1) % n)
     best.top.push_back(e);
+  if (best.top.empty()) // a godet ends in a point
+    return std::nullopt;
   return best;
 }
 

@@ -224,6 +224,13 @@ TEST(Inference, GoresThatAreAllAlikeAreSewnToARingByOneAnswer) {
   }));
 }
 
+TEST(Inference, GodetsAreNoGores) {
+  std::vector<Outline> panels;
+  for (int k = 0; k < 7; ++k)
+    panels.push_back({std::to_string(k), {{-9, 0}, {9, 0}, {0, 60}}});
+  EXPECT_TRUE(with_gore_rows(outlines(panels), {}).empty());
+}
+
 TEST(Inference, GoresStandInTheOrderOfTheirTopsAndOneThatIsLeftFillsTheGap) {
   std::vector<Vec2> band; // six stretches below
   for (int k = 0; k <= 6; ++k)
