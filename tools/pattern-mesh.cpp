@@ -123,9 +123,11 @@ void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::s
 /// questions go to standard output.
 bool guess_seams(cli::Tool& tool, pattern::Pattern& source, bool pieces_chosen) {
   std::vector<pattern::PieceVersions> versions;
+  std::optional<std::vector<pattern::SeamGuess>> inferred;
   if (!pieces_chosen)
-    versions = pattern::take_versions(source);
-  const std::vector<pattern::SeamGuess> guesses = pattern::infer_seams(source);
+    versions = pattern::take_versions(source, inferred);
+  const std::vector<pattern::SeamGuess> guesses =
+      inferred ? std::move(*inferred) : pattern::infer_seams(source);
   const io::Json document = pattern::sewing_questions(source, guesses, tool.name(), versions);
   for (const pattern::SeamGuess& g : guesses)
     if (g.certain) {

@@ -2,8 +2,16 @@
 #include <sloper/pattern/pattern.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sloper::pattern {
+
+double Panel::area() const {
+  std::vector<Path> outline;
+  for (const PanelEdge& e : loops[0])
+    outline.push_back(e.path);
+  return std::abs(signed_area(outline));
+}
 
 int Panel::n_edges() const {
   int n = 0;

@@ -80,6 +80,8 @@ struct Panel {
 
   /// Edges of all loops.
   int n_edges() const;
+  /// Area within the outer loop, m2.
+  double area() const;
   /// Edge by its index, counted through all loops.
   /// @throws std::out_of_range
   const PanelEdge& edge(int index) const;

@@ -235,4 +235,47 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
   }
 }
 
+void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map) {
+  for (auto& loop : panel.loops)
+    for (PanelEdge& e : loop)
+      for (Segment& s : e.path)
+        for (Vec2& p : s.p)
+          p = snapped(map(p));
+  for (InnerLine& line : panel.lines)
+    for (Segment& s : line.path)
+      for (Vec2& p : s.p)
+        p = snapped(map(p));
+}
+
+std::array<Vec2, 2> extent(const Panel& panel) {
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  for (const PanelEdge& e : panel.loops[0])
+    for (const Segment& s : e.path) {
+      low = low.cwiseMin(s.p[0]);
+      high = high.cwiseMax(s.p[0]);
+    }
+  return {low, high};
+}
+
+Vec2 middle(const Panel& panel) {
+  const auto [low, high] = extent(panel);
+  return 0.5 * (low + high);
+}
+
+double factor(const io::Node& node, const char* key) {
+  const double f = node.number(key, 1);
+  if (!(f > 0.05 && f < 20))
+    node.at(key).fail("json.out-of-range"_id, "factor " + decimals(f, 3) + " is out of range",
+                      "give 0.05 to 20");
+  return f;
+}
+
+Panel& edited_panel(Pattern& pattern, const io::Node& node) {
+  return pattern.panels[panel_named(pattern, node.at("panel"))];
+}
+
+int edited_edge(const Panel& panel, const io::Node& node) {
+  return edge_named(panel, node.at("edge"));
+}
+
 } // namespace sloper::pattern

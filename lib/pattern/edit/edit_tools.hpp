@@ -4,6 +4,7 @@
 #include <sloper/io/json_fwd.hpp>
 #include <sloper/pattern/pattern.hpp>
 
+#include <array>
 #include <functional>
 
 namespace sloper::pattern {
@@ -67,17 +68,31 @@ std::vector<std::size_t> all_holes(const Panel& panel);
 Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer,
                 const std::vector<std::size_t>& holes);
 
+/// Moves all of a panel: outline, holes, lines and what lies on it.
+void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map);
+/// Low and high corner of a panel's box, m.
+std::array<Vec2, 2> extent(const Panel& panel);
+Vec2 middle(const Panel& panel);
+/// Scales an edge about a point of itself so that its length becomes `length`, m.
+void set_length(Panel& panel, int edge, double length, const std::string& fixed);
+
+/// A factor that an edit gives, above 0. @throws Error INPUT
+double factor(const io::Node& node, const char* key);
+/// The panel and the edge that an edit names. @throws Error INPUT
+Panel& edited_panel(Pattern& pattern, const io::Node& node);
+int edited_edge(const Panel& panel, const io::Node& node);
 /// The edge of the outline that an edit names. @throws Error INPUT
 int outer_edge(const Panel& panel, const io::Node& node, const char* key);
 /// A number from 0 to 1. @throws Error INPUT
 double fraction(const io::Node& node, const char* key);
 
-/// The edits that change what edges and panels there are; `unit` is m per unit of the document.
+/// The edits that stand in sources of their own; `unit` is m per unit of the document.
 void split_panel(Pattern& pattern, const io::Node& node, double unit); ///< split, cut
 void add_point(Pattern& pattern, const io::Node& node);                ///< add-point
 void join_panels(Pattern& pattern, const io::Node& node);              ///< join
 void add_dart(Pattern& pattern, const io::Node& node, double unit);    ///< add-dart
 void rotate_dart(Pattern& pattern, const io::Node& node);              ///< rotate-dart
 void restore(Pattern& pattern, const io::Node& node);                  ///< restore
+void shrink(Pattern& pattern, const io::Node& node, double unit);      ///< shrink
 
 } // namespace sloper::pattern

@@ -55,41 +55,6 @@ void move_ends(const Place& place, const Vec2& start, const Vec2& end) {
   drag(place.after().path, end, 1, 0);
 }
 
-/// Scales an edge about a point of itself so that its length becomes `length`.
-void set_length(Panel& panel, int edge, double length, const std::string& fixed) {
-  const Place place = place_of_edge(panel, edge);
-  Path& path = place.edge().path;
-  const double factor = length / pattern::length(path);
-  const Vec2 a = path.front().p[0], b = path.back().p[3];
-  Vec2 about = a;
-  if (fixed == "end")
-    about = b;
-  if (fixed == "middle")
-    about = 0.5 * (a + b);
-  for (Segment& s : path)
-    for (Vec2& p : s.p)
-      p = snapped(Vec2(about + factor * (p - about)));
-  if (place.loop->size() == 1)
-    return;
-  drag(place.before().path, path.front().p[0] - a, 0, 1);
-  drag(place.after().path, path.back().p[3] - b, 1, 0);
-  // The ends must meet to the last bit.
-  place.before().path.back().p[3] = path.front().p[0];
-  place.after().path.front().p[0] = path.back().p[3];
-}
-
-void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map) {
-  for (auto& loop : panel.loops)
-    for (PanelEdge& e : loop)
-      for (Segment& s : e.path)
-        for (Vec2& p : s.p)
-          p = snapped(map(p));
-  for (InnerLine& line : panel.lines)
-    for (Segment& s : line.path)
-      for (Vec2& p : s.p)
-        p = snapped(map(p));
-}
-
 /// After edits of edges: lines that end on an edge go with it, at the same fraction of its length.
 void carry_lines(const Panel& before, Panel& after) {
   for (std::size_t k = 0; k < after.lines.size(); ++k) {
@@ -109,21 +74,6 @@ void carry_lines(const Panel& before, Panel& after) {
       drag(path, move[1], 0, 1);
     }
   }
-}
-
-std::array<Vec2, 2> extent(const Panel& panel) {
-  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-  for (const PanelEdge& e : panel.loops[0])
-    for (const Segment& s : e.path) {
-      low = low.cwiseMin(s.p[0]);
-      high = high.cwiseMax(s.p[0]);
-    }
-  return {low, high};
-}
-
-Vec2 middle(const Panel& panel) {
-  const auto [low, high] = extent(panel);
-  return 0.5 * (low + high);
 }
 
 /// Moves an edge inwards, square to its chord.
@@ -169,14 +119,6 @@ void open_seam(Pattern& pattern, const io::Node& node, bool open) {
   seam.open = open;
 }
 
-double factor(const io::Node& node, const char* key) {
-  const double f = node.number(key, 1);
-  if (!(f > 0.05 && f < 20))
-    node.at(key).fail("json.out-of-range"_id, "factor " + decimals(f, 3) + " is out of range",
-                      "give 0.05 to 20");
-  return f;
-}
-
 double positive_length(const io::Node& node, double unit) {
   const double length = node.at("length").number() * unit;
   if (!(length > 1e-4))
@@ -184,13 +126,6 @@ double positive_length(const io::Node& node, double unit) {
                            "the length is too short (" + centimetres(length) + ")",
                            "give more than 0.01 cm");
   return length;
-}
-
-Panel& edited_panel(Pattern& pattern, const io::Node& node) {
-  return pattern.panels[panel_named(pattern, node.at("panel"))];
-}
-int edited_edge(const Panel& panel, const io::Node& node) {
-  return edge_named(panel, node.at("edge"));
 }
 
 void move_point(Pattern& pattern, const io::Node& node, double unit) {
@@ -353,76 +288,6 @@ void grade(Pattern& pattern, const io::Node& node, double unit) {
   });
 }
 
-/// Elastic tape along a curve: rest lengths change along it, the outline does not.
-void add_tape(Panel& p, const io::Node& node, double unit) {
-  InnerLine tape{"", "tape", read_path(node.at("curve"), unit, nullptr), factor(node, "factor"),
-                 node.number("width", 0.01 / unit) * unit};
-  for (Segment& s : tape.path)
-    for (Vec2& q : s.p)
-      q = snapped(q);
-  const auto [low, high] = extent(p);
-  for (const Segment& s : tape.path)
-    for (const Vec2& q : s.p)
-      if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1))
-        node.at("curve").fail("edit.outside-panel"_id, "the tape extends beyond panel " + p.name,
-                              "draw it inside");
-  if (!(pattern::length(tape.path) > 0.005))
-    node.at("curve").fail("edit.too-small"_id,
-                          "the tape is too short (" + centimetres(pattern::length(tape.path)) + ")",
-                          "draw at least 0.5 cm");
-  if (!(tape.width > 0 && tape.width < 1))
-    node.at("width").fail("json.out-of-range"_id,
-                          "a tape " + centimetres(tape.width) + " wide is out of range",
-                          "give a width above 0 and below 100 cm");
-  const auto taken = [&](const std::string& name) {
-    return std::any_of(p.lines.begin(), p.lines.end(),
-                       [&](const InnerLine& l) { return l.name == name; });
-  };
-  tape.name = node.string("name", "tape");
-  if (node.has("name") && taken(tape.name))
-    node.at("name").fail("edit.name-taken"_id,
-                         "panel " + p.name + " already has a line '" + tape.name + "'");
-  for (int k = 2; taken(tape.name); ++k)
-    tape.name = "tape" + std::to_string(k);
-  p.lines.push_back(std::move(tape));
-}
-
-/// Cloth between two parallel lines, across them.
-void shrink_strip(Panel& p, const io::Node& node, double unit) {
-  const io::Node strip = node.at("strip");
-  strip.allow_only({"from", "to"});
-  const Vec2 from = strip.at("from").vec2() * unit, across = strip.at("to").vec2() * unit - from;
-  const double width = across.norm(), f = factor(node, "factor");
-  if (!(width > 1e-4))
-    strip.fail("edit.too-small"_id, "the strip is too narrow (" + centimetres(width) + ")",
-               "give more than 0.01 cm");
-  const Vec2 along = across / width, c = from + 0.5 * across;
-  map_panel(p, [&](const Vec2& q) {
-    const double s = (q - c).dot(along), inside = std::clamp(s, -0.5 * width, 0.5 * width);
-    return Vec2(q + (f - 1) * inside * along);
-  });
-}
-
-/// Along a curve, along an edge, in a strip, or all of a panel along warp and weft.
-void shrink(Pattern& pattern, const io::Node& node, double unit) {
-  node.allow_only(
-      {"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
-  Panel& p = edited_panel(pattern, node);
-  if (node.has("curve"))
-    return add_tape(p, node, unit);
-  if (node.has("edge")) {
-    const int e = edited_edge(p, node);
-    return set_length(p, e, factor(node, "factor") * pattern::length(p.edge(e).path), "middle");
-  }
-  if (node.has("strip"))
-    return shrink_strip(p, node, unit);
-  const double warp = factor(node, "warp"), weft = factor(node, "weft");
-  const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
-  map_panel(p, [&](const Vec2& q) {
-    return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v);
-  });
-}
-
 struct Edit {
   const char* name;
   void (*apply)(Pattern& pattern, const io::Node& node, double unit);
@@ -470,6 +335,28 @@ const Edit& edit_named(const io::Node& node) {
 }
 
 } // namespace
+
+void set_length(Panel& panel, int edge, double length, const std::string& fixed) {
+  const Place place = place_of_edge(panel, edge);
+  Path& path = place.edge().path;
+  const double factor = length / pattern::length(path);
+  const Vec2 a = path.front().p[0], b = path.back().p[3];
+  Vec2 about = a;
+  if (fixed == "end")
+    about = b;
+  if (fixed == "middle")
+    about = 0.5 * (a + b);
+  for (Segment& s : path)
+    for (Vec2& p : s.p)
+      p = snapped(Vec2(about + factor * (p - about)));
+  if (place.loop->size() == 1)
+    return;
+  drag(place.before().path, path.front().p[0] - a, 0, 1);
+  drag(place.after().path, path.back().p[3] - b, 1, 0);
+  // The ends must meet to the last bit.
+  place.before().path.back().p[3] = path.front().p[0];
+  place.after().path.front().p[0] = path.back().p[3];
+}
 
 Vec2 snapped(const Vec2& p) {
   return {std::nearbyint(p.x() / GRID) * GRID, std::nearbyint(p.y() / GRID) * GRID};

@@ -180,12 +180,8 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
 void require_few_vertices(const Pattern& pattern, const PanelMesh& mesh, const std::string& file) {
   constexpr double MOST_VERTICES = 5e6;
   double area = 0;
-  for (const Panel& p : pattern.panels) {
-    std::vector<Path> outline;
-    for (const PanelEdge& e : p.loops[0])
-      outline.push_back(e.path);
-    area += std::abs(signed_area(outline));
-  }
+  for (const Panel& p : pattern.panels)
+    area += p.area();
   const double n = area / (mesh.edge_length * mesh.edge_length * std::sqrt(0.75));
   if (!(n <= MOST_VERTICES))
     throw input_error("mesh.too-many-vertices"_id, file, pattern.name,

@@ -57,7 +57,7 @@ PlacementReport Placer::run() {
 }
 
 int Placer::find_unclassified() {
-  std::string names, shaped;
+  std::string names, shaped, fronts;
   int count = 0;
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     const Panel& panel = m_pattern.panels[k];
@@ -69,6 +69,8 @@ int Placer::find_unclassified() {
         side = ", back";
       shaped +=
           (shaped.empty() ? "" : ", ") + panel.name + " (" + m_mesh.panels[k].part + side + ")";
+      if (m_roles[k].unsure_front && m_roles[k].side == Side::FRONT)
+        fronts += (fronts.empty() ? "" : ", ") + panel.name;
       continue;
     }
     if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side == Side::RING ||
@@ -76,6 +78,11 @@ int Placer::find_unclassified() {
       continue;
     names += (count++ ? ", " : "") + panel.name;
   }
+  if (!fronts.empty())
+    m_mesh.findings.push_back({"placement.front-unsure"_id,
+                               "start: is " + fronts +
+                                   " the front? Front and back differ too little to tell; if it is "
+                                   "the back, put the word back into the name of one of them"});
   if (!shaped.empty())
     m_mesh.findings.push_back(
         {"placement.by-shape"_id, "start: placed by their shapes: " + shaped});

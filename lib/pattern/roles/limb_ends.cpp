@@ -1,11 +1,11 @@
 #include <pattern/roles/limb_ends.hpp>
+#include <sloper/geometry/polygon.hpp>
 
 #include <cmath>
 
 namespace sloper::pattern {
 namespace {
 
-constexpr std::size_t TORSO = 0, ARM = 1, NECK = 2, LOWER_BODY = 3, LEG = 4; // SHAPE_PART_NAMES
 constexpr double LEG_PIECE = 0.4; // of the largest leg's area, where trousers have no band
 
 class Limbs {
@@ -33,18 +33,11 @@ public:
 private:
   static constexpr int UNKNOWN = -1;
   static bool on_trunk(std::size_t part) {
-    return part == TORSO || part == LOWER_BODY || part == NECK;
+    return part == TORSO_PART || part == LOWER_BODY_PART || part == NECK_PART;
   }
 
   double area(std::size_t k) const {
-    const std::vector<int>& outline = m_mesh.panels[k].outline;
-    double sum = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2 &a = m_mesh.pattern[outline[i]],
-                 &b = m_mesh.pattern[outline[(i + 1) % outline.size()]];
-      sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-    return std::abs(sum);
+    return polygon_area(m_mesh.pattern, m_mesh.panels[k].outline);
   }
   double sewn_length(std::size_t p, std::size_t q) const {
     double sum = 0;
@@ -66,7 +59,7 @@ private:
   void find_tiers() {
     std::vector<std::size_t> reached;
     const std::size_t root =
-        largest([](std::size_t part) { return part == TORSO || part == LOWER_BODY; });
+        largest([](std::size_t part) { return part == TORSO_PART || part == LOWER_BODY_PART; });
     if (root < m_roles.size()) {
       m_tier[root] = 0;
       reached.push_back(root);
@@ -76,10 +69,10 @@ private:
             m_tier[q] = 0;
             reached.push_back(static_cast<std::size_t>(q));
           }
-    } else if (const std::size_t leg = largest([](std::size_t part) { return part == LEG; });
+    } else if (const std::size_t leg = largest([](std::size_t part) { return part == LEG_PART; });
                leg < m_roles.size()) {
       for (std::size_t k = 0; k < m_roles.size(); ++k)
-        if (m_roles[k].part == LEG && m_area[k] > LEG_PIECE * m_area[leg]) {
+        if (m_roles[k].part == LEG_PART && m_area[k] > LEG_PIECE * m_area[leg]) {
           m_tier[k] = 1;
           reached.push_back(k);
         }
@@ -96,7 +89,9 @@ private:
   /// of the torso that they are sewn to.
   void one_hand_a_sleeve() {
     std::vector<char> met(m_roles.size(), 0);
-    const auto of_sleeve = [&](std::size_t k) { return m_tier[k] == 1 && m_roles[k].part == ARM; };
+    const auto of_sleeve = [&](std::size_t k) {
+      return m_tier[k] == 1 && m_roles[k].part == ARM_PART;
+    };
     for (std::size_t k = 0; k < m_roles.size(); ++k) {
       if (met[k] || !of_sleeve(k))
         continue;
@@ -107,7 +102,7 @@ private:
         by_shape += m_area[pieces[i]] * m_roles[pieces[i]].hand;
         for (const int q : m_graph.neighbours(static_cast<int>(pieces[i]))) {
           const std::size_t o = static_cast<std::size_t>(q);
-          if (m_tier[o] == 0 && m_roles[o].part == TORSO)
+          if (m_tier[o] == 0 && m_roles[o].part == TORSO_PART)
             by_halves += sewn_length(pieces[i], o) * m_roles[o].hand;
           if (met[o] || !of_sleeve(o))
             continue;
@@ -136,7 +131,7 @@ private:
     if (parent == m_roles.size())
       return;
     if (m_tier[k] == 1) {
-      if (m_roles[k].part == ARM && m_roles[parent].part == TORSO)
+      if (m_roles[k].part == ARM_PART && m_roles[parent].part == TORSO_PART)
         m_roles[k].back = m_roles[parent].back;
       return;
     }
@@ -144,7 +139,7 @@ private:
     m_roles[k].hand = m_roles[parent].hand;
     m_roles[k].back = m_roles[parent].back;
     m_roles[k].sure = m_roles[parent].sure;
-    on_leg[k] = m_roles[k].part == LEG;
+    on_leg[k] = m_roles[k].part == LEG_PART;
   }
 
   const PanelMesh& m_mesh;

@@ -42,6 +42,7 @@ struct PanelRole {
   Eigen::Matrix2d turn = Eigen::Matrix2d::Identity(); ///< pattern coordinates to (u, v): v up the
                                                       ///< trunk, or up the arm to the shoulder
   bool by_shape = false;                              ///< told by shape and seams alone
+  bool unsure_front = false;    ///< whether it is front or back is told by little
   std::optional<double> du, dv; ///< m: (u, v) = turn p + (du, dv) where the pattern's hint says so;
                                 ///< heights are those of its own body
 };

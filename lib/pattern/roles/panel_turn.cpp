@@ -2,6 +2,7 @@
 #include <pattern/roles/leg_roles.hpp>
 #include <pattern/roles/panel_turn.hpp>
 #include <sloper/base/units.hpp>
+#include <sloper/geometry/polygon.hpp>
 #include <sloper/pattern/mesh/folds.hpp>
 
 #include <algorithm>
@@ -74,13 +75,7 @@ private:
   const Vec2& at(int vertex) const { return m_mesh.pattern[vertex]; }
 
   double area(std::size_t k) const {
-    double sum = 0;
-    const auto& outline = m_mesh.panels[k].outline;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2 &a = at(outline[i]), &b = at(outline[(i + 1) % outline.size()]);
-      sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-    return std::abs(sum);
+    return polygon_area(m_mesh.pattern, m_mesh.panels[k].outline);
   }
 
   template<class Visit> void seams_to_known(std::size_t k, Visit visit) const {

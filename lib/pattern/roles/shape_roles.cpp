@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 namespace sloper::pattern {
 
@@ -13,9 +15,9 @@ namespace {
 constexpr double AT_THE_SIDE = 0.25; // of a panel's width, from its middle
 constexpr double CLEAR_VOTE = 0.2;   // of all that is cast
 constexpr double SAME_FACE = 100;    // log-odds
-constexpr double ON_THE_SIDE = 0.4;  // of a panel's width, from its middle: a side seam
-
-constexpr std::size_t TORSO = 0, ARM = 1, NECK = 2; // of SHAPE_PART_NAMES
+constexpr double ONE_PANEL =
+    0.05; // weight of what one panel's shape says of its face: decides ties
+constexpr double ON_THE_SIDE = 0.4; // of a panel's width, from its middle: a side seam
 
 using Parts = std::vector<std::array<double, SHAPE_PARTS>>;
 
@@ -91,16 +93,33 @@ bool halves_of_four(const ShapeWitness& witness, const std::vector<std::size_t>&
       return (l.a == p && l.b == q) || (l.a == q && l.b == p);
     });
   };
-  if (part[a] != TORSO || part[b] != TORSO || seams(a, b) != 1)
+  if (part[a] != TORSO_PART || part[b] != TORSO_PART || seams(a, b) != 1)
     return false;
   const auto facing = [&](std::size_t p, std::size_t but) {
     for (std::size_t q = 0; q < witness.count(); ++q)
-      if (q != p && q != but && part[q] == TORSO && seams(p, q) > 1)
+      if (q != p && q != but && part[q] == TORSO_PART && seams(p, q) > 1)
         return q;
     return p;
   };
   const std::size_t c = facing(a, b), d = facing(b, a);
   return c != a && d != b && c != d && seams(c, d) == 1;
+}
+
+/// SAME_FACE where a seam surely joins panels of one face, -SAME_FACE where surely of both, else 0.
+double sure_face(const ShapeWitness& witness, const std::vector<std::size_t>& part,
+                 const ShapeWitness::Link& l) {
+  if (halves_of_four(witness, part, l.a, l.b))
+    return SAME_FACE;
+  // What is sewn to its own image, and is no symmetric piece, is the other half of one face; where
+  // all four pieces are alike, only what has one seam with it.
+  const bool halves = l.middle && !witness.symmetric(l.a);
+  for (std::size_t c = 0; c < witness.count() && halves; ++c)
+    if (c != l.a && c != l.b && halves_of_four(witness, part, l.a, c))
+      return -SAME_FACE;
+  if (halves)
+    return SAME_FACE;
+  const bool trunk = part[l.a] != ARM_PART && part[l.a] != NECK_PART && part[l.a] == part[l.b];
+  return trunk && go_around(witness, l.a, l.b) ? -SAME_FACE : 0;
 }
 
 } // namespace
@@ -114,9 +133,40 @@ const RoleModel& role_model() {
         out.parts[look].push_back(read_trees(trees));
     out.back = read_trees(json.at("back"));
     out.same_face = read_trees(json.at("same_face"));
+    for (std::size_t k = 0; k < FACE_VOTES; ++k)
+      out.front[k] = json.at("front").at(FACE_VOTE_NAMES[k]).get<double>();
     return out;
   }();
   return model;
+}
+
+std::vector<std::pair<std::size_t, bool>> tell_faces(const ShapeWitness& witness,
+                                                     const RoleModel& model,
+                                                     const std::vector<std::size_t>& part) {
+  // What all seams of two panels say together. A sleeve, a hood or a collar goes around and joins a
+  // front to a back: its seams come after those of the trunk.
+  std::map<std::pair<std::size_t, std::size_t>, double> same;
+  for (const auto& l : witness.links()) {
+    const double sure = sure_face(witness, part, l);
+    const double score = sure != 0 ? sure : model.same_face(witness.link(l, part));
+    same[std::minmax(l.a, l.b)] += score;
+  }
+  std::vector<std::tuple<int, double, std::size_t, std::size_t>> order;
+  for (const auto& [pair, score] : same) {
+    const auto is = [&, p = pair](std::size_t kind) {
+      return part[p.first] == kind || part[p.second] == kind;
+    };
+    const int around = is(NECK_PART) ? 2 : is(ARM_PART);
+    order.push_back({around, -std::abs(score), pair.first, pair.second});
+  }
+  std::sort(order.begin(), order.end());
+  Faces faces(witness.count());
+  for (const auto& [around, cost, a, b] : order)
+    faces.join(a, b, same[{a, b}] < 0);
+  std::vector<std::pair<std::size_t, bool>> out;
+  for (std::size_t k = 0; k < witness.count(); ++k)
+    out.push_back(faces.root(k));
+  return out;
 }
 
 void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts& parts,
@@ -125,34 +175,24 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
   std::vector<std::size_t> own;
   for (const ShapeRole& role : roles)
     own.push_back(role.part);
-  std::vector<std::pair<double, std::size_t>> order;
-  std::vector<double> same;
-  for (const auto& l : witness.links()) {
-    // What is sewn to its own image, and is no symmetric piece, is the other half of one face.
-    const bool halves = l.middle && !witness.symmetric(l.a);
-    const bool trunk = own[l.a] != ARM && own[l.a] != NECK && own[l.a] == own[l.b];
-    double score = model.same_face(witness.link(l, own));
-    if (halves || halves_of_four(witness, own, l.a, l.b))
-      score = SAME_FACE;
-    else if (trunk && go_around(witness, l.a, l.b))
-      score = -SAME_FACE;
-    same.push_back(score);
-    order.push_back({-std::abs(same.back()), same.size() - 1});
-  }
-  std::sort(order.begin(), order.end());
-  Faces faces(n);
-  for (const auto& [cost, k] : order) {
-    const auto& l = witness.links()[k];
-    faces.join(l.a, l.b, same[k] < 0);
-  }
-  std::vector<double> back(n, 0); // log-odds, summed at the roots
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto [root, turned] = faces.root(k);
-    back[root] += (turned ? -1 : 1) * model.back(witness.panel(k, parts));
+  const std::vector<std::pair<std::size_t, bool>> faces = tell_faces(witness, model, own);
+  std::vector<double> front(n, 0); // log-odds, summed at the roots
+  for (std::size_t k = 0; k < n; ++k)
+    front[faces[k].first] +=
+        (faces[k].second ? 1 : -1) * ONE_PANEL * model.back(witness.panel(k, parts));
+  for (std::size_t root = 0; root < n; ++root) {
+    std::vector<int> face(n, 0);
+    for (std::size_t k = 0; k < n; ++k)
+      if (faces[k].first == root)
+        face[k] = faces[k].second ? -1 : 1;
+    const FaceVotes votes = witness.faces().compare(own, face);
+    for (std::size_t v = 0; v < FACE_VOTES && faces[root].first == root; ++v)
+      front[root] += model.front[v] * votes[v];
   }
   for (std::size_t k = 0; k < n; ++k) {
-    const auto [root, turned] = faces.root(k);
-    roles[k].back = (back[root] > 0) != turned;
+    const auto [root, turned] = faces[k];
+    roles[k].back = (front[root] < 0) != turned;
+    roles[k].face_odds = std::abs(front[root]);
   }
   // Seen from outside, a front's right half is the wearer's left; a back's is the right.
   const auto hand = [&](std::size_t k, double x) {

@@ -1,5 +1,7 @@
 #pragma once
 /// What panels are on the body by their shapes and by what they are sewn to, without names.
+#include <pattern/roles/face_votes.hpp>
+#include <pattern/roles/shape_parts.hpp>
 #include <pattern/seams/seam_model.hpp>
 
 #include <string>
@@ -7,24 +9,21 @@
 
 namespace sloper::pattern {
 
-/// The parts that shapes tell apart.
-inline constexpr std::size_t SHAPE_PARTS = 5;
-inline constexpr const char* SHAPE_PART_NAMES[SHAPE_PARTS] = {"torso", "arm", "neck", "lower_body",
-                                                              "leg"};
-
 /// What one panel is by its shape, as the model sees it.
 struct ShapeRole {
   std::size_t part = 0; ///< of SHAPE_PART_NAMES
   double sure = 0;      ///< probability of the part
   bool back = false;
-  int hand = 0; ///< 1 the wearer's left, -1 right, 0 both or unknown
+  int hand = 0;         ///< 1 the wearer's left, -1 right, 0 both or unknown
+  double face_odds = 0; ///< log-odds that `back` is right
 };
 
 /// Boosted trees for each part, in two looks; for "is a back"; and for "both sides of a seam are on
-/// the same face of the body".
+/// the same face of the body". `front` weighs what the two faces of the whole garment differ by.
 struct RoleModel {
   std::vector<SeamTrees> parts[2];
   SeamTrees back, same_face;
+  FaceVotes front{};
 };
 
 /// The model that is shipped.
@@ -53,6 +52,7 @@ public:
   /// A link's clues with the parts of its panels.
   Evidence link(const Link& link, const std::vector<std::size_t>& parts) const;
   bool symmetric(std::size_t k) const { return m_panels[k].symmetric; }
+  const FaceWitness& faces() const { return m_faces; }
 
 private:
   struct Seen {
@@ -62,10 +62,17 @@ private:
   };
   std::vector<Seen> m_panels;
   std::vector<Link> m_links;
+  FaceWitness m_faces;
 };
 
 /// @param pattern  with its seams
 std::vector<ShapeRole> shape_roles(const Pattern& pattern, const RoleModel& model = role_model());
+
+/// Which panels are on the same face of the garment: of each panel a root panel that it is compared
+/// with, and whether it is on the other face than that.
+std::vector<std::pair<std::size_t, bool>> tell_faces(const ShapeWitness& witness,
+                                                     const RoleModel& model,
+                                                     const std::vector<std::size_t>& part);
 
 /// Faces and hands, the parts being known.
 void tell_sides(const ShapeWitness& witness, const RoleModel& model,

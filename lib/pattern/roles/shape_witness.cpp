@@ -20,7 +20,7 @@ constexpr std::size_t OWN_CLUES = 24; // of a panel alone; those with others' pa
 
 } // namespace
 
-ShapeWitness::ShapeWitness(const Pattern& pattern) {
+ShapeWitness::ShapeWitness(const Pattern& pattern) : m_faces(pattern) {
   const std::vector<SeamSide> sides = seam_sides(pattern, all_corners(pattern), 0);
   const SeamWitness pairs(pattern, sides);
   const auto mirrors = panel_mirrors(pattern);
@@ -71,11 +71,9 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
   m_panels.resize(n);
   std::vector<Vec2> size(n);
   for (std::size_t p = 0; p < n; ++p) {
-    std::vector<Path> loop;
     Vec2 low = Vec2::Constant(1e300), high = -low;
     const Panel& panel = pattern.panels[p];
     for (const PanelEdge& e : panel.loops[0]) {
-      loop.push_back(e.path);
       const ArcLength arc(e.path);
       for (int k = 0; k < 6; ++k) {
         const Vec2 v = arc.at(arc.length() * k / 6),
@@ -85,7 +83,7 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
       }
     }
     size[p] = (high - low).cwiseMax(1e-6);
-    m_panels[p].area = std::abs(signed_area(loop));
+    m_panels[p].area = panel.area();
     m_panels[p].height = size[p].y();
     largest = std::max(largest, m_panels[p].area);
   }

@@ -1,4 +1,5 @@
 #include <pattern/panel_words.hpp>
+#include <pattern/seams/gore_rows.hpp>
 #include <pattern/seams/missing_seams.hpp>
 #include <pattern/seams/rim_seams.hpp>
 #include <pattern/seams/seam_assembly.hpp>
@@ -299,10 +300,11 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   };
   std::vector<SeamGuess> by_edges = completed(edges.guesses());
   if (sharp == all)
-    return by_edges;
+    return with_gore_rows(pattern, std::move(by_edges));
   // Judged with their sleeves, collars and bands: a cap is found where sides are whole.
   std::vector<SeamGuess> by_sides = completed(Inference(pattern, sharp).guesses());
-  return sewn_surely(pattern, by_sides) > sewn_surely(pattern, by_edges) ? by_sides : by_edges;
+  const bool whole_sides = sewn_surely(pattern, by_sides) > sewn_surely(pattern, by_edges);
+  return with_gore_rows(pattern, std::move(whole_sides ? by_sides : by_edges));
 }
 
 std::vector<std::string> panels_apart(const Pattern& pattern) {

@@ -73,19 +73,16 @@ std::vector<Unit> pairs_of_legs(const Pattern& pattern) {
 
 double cloth_of(const Pattern& pattern, const Unit& unit) {
   double sum = 0;
-  for (const int p : unit) {
-    std::vector<Path> outline;
-    for (const PanelEdge& edge : pattern.panels[p].loops[0])
-      outline.push_back(edge.path);
-    sum += std::abs(signed_area(outline));
-  }
+  for (const int p : unit)
+    sum += pattern.panels[p].area();
   return sum;
 }
 
 /// How surely all are sewn, less what sews two units of one size: a hood fits its other version.
-double sewn_together(const Pattern& pattern, const std::vector<Unit>& units) {
+/// @param guesses  of the pattern
+double sewn_together(const Pattern& pattern, const std::vector<Unit>& units,
+                     std::vector<SeamGuess> guesses) {
   constexpr double SAME_SIZE = 0.15; // logarithm of areas: a collar and its stand differ by more
-  std::vector<SeamGuess> guesses = infer_seams(pattern);
   const auto unit_of = [&](int p) {
     return std::find_if(units.begin(), units.end(), [&](const Unit& unit) {
       return std::find(unit.begin(), unit.end(), p) != unit.end();
@@ -101,23 +98,30 @@ double sewn_together(const Pattern& pattern, const std::vector<Unit>& units) {
 }
 
 /// Of pieces of one kind, the best alone first, where it is sewn better without the others.
-std::vector<Unit> best_alone(const Pattern& pattern, std::vector<Unit> units) {
+/// @param inferred  seams of the pattern where they are known, then of what is left of it
+std::vector<Unit> best_alone(const Pattern& pattern, std::vector<Unit> units,
+                             std::optional<std::vector<SeamGuess>>& inferred) {
   constexpr std::size_t MOST_VERSIONS = 8; // versions of one part; more is a library of parts
   constexpr double BETTER = 0.1; // m of seams: less is no difference, and the file's order counts
   if (units.size() < 2 || units.size() > MOST_VERSIONS)
     return {};
   std::vector<double> worth;
+  std::vector<std::vector<SeamGuess>> guesses;
   for (std::size_t k = 0; k < units.size(); ++k) {
     const Pattern alone = without(pattern, units, k);
-    worth.push_back(sewn_surely(alone, infer_seams(alone)));
+    guesses.push_back(infer_seams(alone));
+    worth.push_back(sewn_surely(alone, guesses.back()));
   }
   std::vector<std::size_t> order(units.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::lround(worth[a] / BETTER) > std::lround(worth[b] / BETTER);
   });
-  if (worth[order[0]] <= sewn_together(pattern, units) + BETTER)
+  if (!inferred)
+    inferred = infer_seams(pattern);
+  if (worth[order[0]] <= sewn_together(pattern, units, *inferred) + BETTER)
     return {};
+  inferred = std::move(guesses[order[0]]);
   std::vector<Unit> out;
   for (const std::size_t k : order)
     out.push_back(units[k]);
@@ -126,8 +130,10 @@ std::vector<Unit> best_alone(const Pattern& pattern, std::vector<Unit> units) {
 
 } // namespace
 
-std::vector<PieceVersions> take_versions(Pattern& pattern) {
+std::vector<PieceVersions> take_versions(Pattern& pattern,
+                                         std::optional<std::vector<SeamGuess>>& inferred) {
   std::vector<PieceVersions> out;
+  inferred.reset();
   if (const std::vector<Unit> legs = pairs_of_legs(pattern); legs.size() > 1)
     out.push_back(keep_first(pattern, legs));
   const auto is_sleeve = [](const Words& words) {
@@ -140,7 +146,8 @@ std::vector<PieceVersions> take_versions(Pattern& pattern) {
       if (const Words words = words_of(pattern, static_cast<std::size_t>(unit[0]));
           neck ? says_neck(words) : is_sleeve(words))
         units.push_back(unit);
-    if (const std::vector<Unit> best = best_alone(pattern, std::move(units)); !best.empty())
+    if (const std::vector<Unit> best = best_alone(pattern, std::move(units), inferred);
+        !best.empty())
       out.push_back(keep_first(pattern, best));
   }
   return out;

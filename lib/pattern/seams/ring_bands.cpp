@@ -15,15 +15,12 @@ constexpr double MIRRORED = 0.03;                           // logarithm of leng
 constexpr double RING_SCORE = 0.8;
 
 bool is_slim(const Panel& panel) {
-  std::vector<Path> outline;
   double around = 0;
-  for (const PanelEdge& edge : panel.loops[0]) {
-    outline.push_back(edge.path);
+  for (const PanelEdge& edge : panel.loops[0])
     around += length(edge.path);
-  }
   // Of a rectangle whose sides are as SLIM_PIECE to 1.
   constexpr double MOST_AREA = SLIM_PIECE / (4 * (SLIM_PIECE + 1) * (SLIM_PIECE + 1));
-  return std::abs(signed_area(outline)) < MOST_AREA * around * around;
+  return panel.area() < MOST_AREA * around * around;
 }
 
 /// Whether a rim is its own mirror image about the start of an edge.

@@ -172,6 +172,87 @@ TEST(PlacementUnnamed, UnequalHalvesOfABodiceAreEachOnOneFace) {
   EXPECT_NE(front(0), front(2));
 }
 
+/// A bodice of four halves with a hood of two, the names telling nothing: P1 and P2 are wider by
+/// `bust`, as a front is.
+Pattern hooded_bodice(double bust, double neck) {
+  std::string seams;
+  const auto sew = [&](const std::string& p, const std::string& e, const std::string& q,
+                       const std::string& f) {
+    seams += std::string(seams.empty() ? "" : ", ") + R"({"name": ")" + p + e + q +
+             R"(", "kind": "gather", "a": [{"panel": ")" + p + R"(", "edge": ")" + e +
+             R"("}], "b": [{"panel": ")" + q + R"(", "edge": ")" + f +
+             R"(", "from": 1, "to": 0}]})";
+  };
+  const auto hood = [](const std::string& name, bool turned) {
+    const double s = turned ? -1 : 1;
+    const std::string sign = std::to_string(s);
+    const auto at = [&](double x, double y) {
+      return std::to_string(s * x) + ", " + std::to_string(y);
+    };
+    std::vector<std::pair<const char*, std::string>> corners = {{"f", at(12, 0)},
+                                                                {"face", at(14, 32)},
+                                                                {"top", at(-6, 34)},
+                                                                {"middle", at(-8, 4)},
+                                                                {"b", at(0, 0)}};
+    std::string outline;
+    const std::size_t n = corners.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t own = turned ? n - 1 - k : k;
+      const std::string& from = corners[turned ? own : (own + n - 1) % n].second;
+      const std::string& to = corners[turned ? (own + n - 1) % n : own].second;
+      outline += std::string(k ? ", " : "") + R"({"edge": ")" + corners[own].first +
+                 R"(", "path": [)" + (k ? "" : R"(["M", )" + from + "], ") + R"(["L", )" + to +
+                 "]]}";
+    }
+    return R"({"name": ")" + name + R"(", "outline": [)" + outline + "]}";
+  };
+  sew("P1", "middle", "P2", "middle");
+  sew("P3", "middle", "P4", "middle");
+  sew("P5", "middle", "P6", "middle");
+  sew("P5", "top", "P6", "top");
+  for (const char* edge : {"side", "shoulder"}) {
+    sew("P1", edge, "P3", edge);
+    sew("P2", edge, "P4", edge);
+  }
+  sew("P1", "neck", "P5", "f");
+  sew("P3", "neck", "P5", "b");
+  sew("P2", "neck", "P6", "f");
+  sew("P4", "neck", "P6", "b");
+  return own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+      half_bodice("P1", 22 + bust, neck, false) + ", " + half_bodice("P2", 22 + bust, neck, true) +
+      ", " + half_bodice("P3", 22, 46, true) + ", " + half_bodice("P4", 22, 46, false) + ", " +
+      hood("P5", false) + ", " + hood("P6", true) + R"(], "seams": [)" + seams + "]}");
+}
+
+TEST(PlacementUnnamed, AHoodDoesNotPutTheBackOnTheFront) {
+  const Pattern pattern = hooded_bodice(1.5, 41);
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  place_panels(pattern, stick_body(25, 1), mesh);
+  for (const std::size_t k : {0, 1})
+    EXPECT_GT(middle(mesh, k).z(), 0) << "the wider one with the lower neck is the front: " << k;
+  for (const std::size_t k : {2, 3})
+    EXPECT_LT(middle(mesh, k).z(), 0) << k;
+}
+
+TEST(PlacementUnnamed, FrontAndBackThatAreAlikeAreAskedAboutAndAWordAnswers) {
+  const auto asked = [](const PanelMesh& mesh) {
+    return std::any_of(mesh.findings.begin(), mesh.findings.end(),
+                       [](const Message& m) { return m.id == "placement.front-unsure"; });
+  };
+  Pattern pattern = hooded_bodice(0, 46);
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  place_panels(pattern, stick_body(25, 1), mesh);
+  EXPECT_TRUE(asked(mesh));
+  const bool first = middle(mesh, 0).z() > 0;
+  Pattern named = pattern;
+  named.panels[first ? 0 : 2].name += " back";
+  PanelMesh turned = mesh_pattern(named, 0.03, "t");
+  place_panels(named, stick_body(25, 1), turned);
+  EXPECT_FALSE(asked(turned));
+  EXPECT_NE(middle(turned, 1).z() > 0, first) << "its other half goes with it";
+}
+
 TEST(PlacementUnnamed, WhatCannotBeMeantIsTold) {
   Pattern pattern = two_panel_top("front", "back", false);
   pattern.panels.push_back(pattern.panels[0]);

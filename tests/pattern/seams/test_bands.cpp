@@ -185,7 +185,8 @@ TEST(Versions, OfTwoPairsOfLegsOneIsMade) {
   Pattern p =
       pattern_of({panel_text("long 1", LEG), panel_text("long 2", mirrored(LEG)),
                   panel_text("short 1", shorter), panel_text("short 2", mirrored(shorter))});
-  const std::vector<PieceVersions> versions = take_versions(p);
+  std::optional<std::vector<SeamGuess>> inferred;
+  const std::vector<PieceVersions> versions = take_versions(p, inferred);
   ASSERT_EQ(versions.size(), 1u);
   EXPECT_EQ(versions[0], (PieceVersions{{"long 1", "long 2"}, {"short 1", "short 2"}}));
   EXPECT_EQ(p.panels.size(), 2u);
@@ -203,13 +204,19 @@ TEST(Versions, OfTwoCollarsOneIsMade) {
   two.push_back(panel_text("collar a", box(38, 4)));
   two.push_back(panel_text("collar b", box(39, 4.2)));
   Pattern p = pattern_of(two);
-  const std::vector<PieceVersions> versions = take_versions(p);
+  std::optional<std::vector<SeamGuess>> inferred;
+  const std::vector<PieceVersions> versions = take_versions(p, inferred);
   ASSERT_EQ(versions.size(), 1u);
   EXPECT_EQ(versions[0], (PieceVersions{{"collar a"}, {"collar b"}}));
   auto one = shirt;
   one.push_back(panel_text("collar a", box(38, 4)));
   Pattern q = pattern_of(one);
-  EXPECT_TRUE(take_versions(q).empty());
+  ASSERT_TRUE(inferred) << "nothing is inferred twice";
+  const auto text = [](const Pattern& pattern, const std::vector<SeamGuess>& guesses) {
+    return sewing_questions(pattern, guesses, "test").dump();
+  };
+  EXPECT_EQ(text(p, *inferred), text(p, infer_seams(p)));
+  EXPECT_TRUE(take_versions(q, inferred).empty());
 }
 
 /// Files of AccuMark and CLO, which are no part of the project.
@@ -230,7 +237,8 @@ TEST(SharedPatterns, FilesOfPatternProgramsAskFewQuestions) {
         Asked{"clo-pattern.dxf", 0, 5}, Asked{"clo2-pattern.dxf", 0, 5}}) {
     SCOPED_TRACE(asked.file);
     Pattern p = read_pattern(folder + asked.file, "");
-    const std::vector<PieceVersions> versions = take_versions(p);
+    std::optional<std::vector<SeamGuess>> inferred;
+    const std::vector<PieceVersions> versions = take_versions(p, inferred);
     EXPECT_EQ(versions.size(), asked.versions);
     const std::vector<SeamGuess> guesses = infer_seams(p);
     EXPECT_LE(sewing_questions(p, guesses, "test", versions)["questions"].size(), asked.most);

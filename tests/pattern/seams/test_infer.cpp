@@ -1,6 +1,7 @@
 #include <support/pattern_texts.hpp>
 
 #include <gtest/gtest.h>
+#include <pattern/seams/gore_rows.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/seams/infer_seams.hpp>
 
@@ -195,6 +196,78 @@ TEST(Inference, SleevesOfATShirtCloseOnThemselves) {
   EXPECT_FALSE(guesses(shirt, 0, 1, 0, 8)) << "a front's two sides are sewn to a back";
   EXPECT_TRUE(guesses(outlines({{"SHORT SLEEVE", sleeve}}), 0, 1, 0, 4));
   EXPECT_FALSE(guesses(outlines({{"front", sleeve}}), 0, 1, 0, 4));
+}
+
+const std::vector<Vec2> GORE = {{-9, 0}, {9, 0}, {5, 60}, {-5, 60}};
+
+/// The gore whose left side (edge 3) is sewn to the right side (edge 1) of gore `k`, -1 for none.
+int right_of(const std::vector<SeamGuess>& all, int k) {
+  for (const SeamGuess& g : all)
+    if (g.seam.a[0].panel == k && g.seam.a[0].edge == 1 && g.seam.b[0].edge == 3)
+      return g.seam.b[0].panel;
+  return -1;
+}
+
+TEST(Inference, GoresThatAreAllAlikeAreSewnToARingByOneAnswer) {
+  std::vector<Outline> panels;
+  for (int k = 0; k < 7; ++k)
+    panels.push_back({std::to_string(k), GORE});
+  const Pattern skirt = outlines(panels);
+  const std::vector<SeamGuess> all = infer_seams(skirt);
+  std::set<int> ring;
+  for (int k = 0, n = 0; n < 7; ++n)
+    ring.insert(k = std::max(right_of(all, k), 0));
+  EXPECT_EQ(ring.size(), 7u);
+  const io::Json doc = sewing_questions(skirt, all, "test");
+  EXPECT_TRUE(std::any_of(doc["questions"].begin(), doc["questions"].end(), [](const io::Json& q) {
+    return q["candidates"][0].contains("and") && q["candidates"][0]["and"].size() == 6;
+  }));
+}
+
+TEST(Inference, GodetsAreNoGores) {
+  std::vector<Outline> panels;
+  for (int k = 0; k < 7; ++k)
+    panels.push_back({std::to_string(k), {{-9, 0}, {9, 0}, {0, 60}}});
+  EXPECT_TRUE(with_gore_rows(outlines(panels), {}).empty());
+}
+
+TEST(Inference, GoresStandInTheOrderOfTheirTopsAndOneThatIsLeftFillsTheGap) {
+  std::vector<Vec2> band; // six stretches below
+  for (int k = 0; k <= 6; ++k)
+    band.push_back({10.0 * k, 0});
+  band.push_back({60, 4});
+  band.push_back({0, 4});
+  std::vector<Outline> panels;
+  for (int k = 0; k < 6; ++k)
+    panels.push_back({std::to_string(k), GORE});
+  panels.push_back({"band", band});
+  const Pattern skirt = outlines(panels);
+  std::vector<SeamGuess> given;
+  const auto add = [&](int p, int e, int q, int f, bool certain) {
+    SeamGuess g;
+    g.seam.a = {{p, e, 0, 1}};
+    g.seam.b = {{q, f, 1, 0}};
+    g.score = 0.9;
+    g.certain = certain;
+    given.push_back(g);
+  };
+  add(6, 6, 6, 8, true); // the band closes
+  const int order[] = {4, 0, 5, 2, 1};
+  for (int k = 0; k < 5; ++k)
+    add(order[k], 2, 6, k, false);
+  add(4, 1, 5, 3, false); // no neighbours
+  const std::vector<SeamGuess> all = with_gore_rows(skirt, given);
+  EXPECT_EQ(right_of(all, 4), 0);
+  EXPECT_EQ(right_of(all, 0), 5);
+  EXPECT_EQ(right_of(all, 5), 2);
+  EXPECT_EQ(right_of(all, 2), 1);
+  EXPECT_EQ(right_of(all, 1), 3) << "the one that is left";
+  EXPECT_EQ(right_of(all, 3), 4);
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const SeamGuess& g) {
+    return g.seam.a[0].panel == 3 && g.seam.a[0].edge == 2 && g.seam.b[0].edge == 5;
+  }));
+  add(3, 1, 6, 7, true); // a certain seam of a side: no gores
+  EXPECT_EQ(with_gore_rows(skirt, given).size(), given.size());
 }
 
 } // namespace

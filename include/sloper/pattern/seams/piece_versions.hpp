@@ -4,6 +4,8 @@
 /// Test: tests/pattern/seams/test_infer.cpp
 #include <sloper/pattern/seams/seam_guess.hpp>
 
+#include <optional>
+
 namespace sloper::pattern {
 
 /// Finds versions in a pattern without seams, takes all but the first of each part out of it, and
@@ -12,7 +14,10 @@ namespace sloper::pattern {
 /// Legs: two pairs or more that each close on themselves and at both crotch curves. Pieces that are
 /// called collars, or sleeves: where more cloth is sewn more surely (infer_seams()) with one of
 /// them alone than with all; that one is proposed which is sewn best. Costs an inference for each
-/// version.
-std::vector<PieceVersions> take_versions(Pattern& pattern);
+/// version and one for all together.
+/// @param inferred  what infer_seams() gives for the pattern that is left, where it was inferred on
+///                  the way; none where there was no choice
+std::vector<PieceVersions> take_versions(Pattern& pattern,
+                                         std::optional<std::vector<SeamGuess>>& inferred);
 
 } // namespace sloper::pattern
