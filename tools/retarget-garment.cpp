@@ -3,6 +3,7 @@
 #include <sloper/cli/run_tool.hpp>
 #include <sloper/collision/skin_cache.hpp>
 #include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/judge_roll_lines.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/fit/worn_policy.hpp>
@@ -221,6 +222,19 @@ void write_pattern(cli::Tool& tool, const Options& o, const garment::Garment& re
     tool.reporter().warning({"dxf.not-written"_id, io::file_name(stem) + ".dxf: " + what});
 }
 
+/// What became of the garment's roll lines. One that is not turned over is a finding; one that
+/// stands, and did not where the garment came from, is a failure.
+std::vector<garment::RollLineState> judge_rolls(const Options& o, const garment::Garment& source,
+                                                garment::RetargetOutcome& outcome) {
+  garment::Garment& garment = outcome.retargeted.garment;
+  const std::vector<garment::RollLineState> states = garment::roll_line_states(garment);
+  for (const Message& finding : garment::unturned_findings(states, o.garment))
+    outcome.retargeted.report.findings.push_back(finding);
+  if (outcome.was_draped() && garment::standing_text(garment::roll_line_states(source)).empty())
+    garment::fail_where_one_stands(states, garment, outcome.report);
+  return states;
+}
+
 int run(cli::Tool& tool, Options o) {
   const garment::RetargetMode mode = garment::retarget_mode_from_name(o.mode);
   if (!o.pattern.empty() && mode != garment::RetargetMode::KEEP_FIT)
@@ -277,6 +291,7 @@ int run(cli::Tool& tool, Options o) {
 
   garment::RetargetOutcome outcome = garment::retarget_and_judge(
       {source, body, skin, skin_hash, mode, settings, policy, o.no_drape}, tool.reporter());
+  const std::vector<garment::RollLineState> rolls = judge_rolls(o, source, outcome);
   const garment::Garment& garment = outcome.retargeted.garment;
   const garment::DrapeReport& report = outcome.report;
   const garment::FitReport& fit = outcome.fit;
@@ -307,6 +322,8 @@ int run(cli::Tool& tool, Options o) {
     document["mode"] = o.mode;
     document["placement"] = garment::placement_json(outcome.retargeted.report);
     findings.insert(findings.end(), file_findings.begin(), file_findings.end());
+    if (!rolls.empty())
+      document["roll_lines"] = garment::roll_lines_json(rolls);
     io::put_findings(document, findings);
     if (dressed)
       document["garment_mesh"] = garment::mesh_json(*put_on.mesh, &*dressed);

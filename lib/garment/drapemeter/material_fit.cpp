@@ -25,6 +25,9 @@ constexpr double CLOSE = 0.03;       // decades: a round that moves less is the 
 /// Coefficient for a decade of rigidity below which cloth hangs or stands whatever it is made of;
 /// in the middle it is 0.41 (tests/validation/test_cusick.cpp).
 constexpr double LEAST_SLOPE = 0.1;
+constexpr double STANDING_OUT =
+    0.85; // coefficient above which stiffer cloth drapes no differently;
+          // the softest cotton of shear 60 N/m comes to 0.5 at least
 constexpr double USELESS_DECADES = 0.3; // a factor of two
 /// Least error of the model's mesh, decades: 5 % of the rigidity, by which it was off on three
 /// fabrics whose silhouettes came from a finer one (test_drapemeter.cpp).
@@ -179,7 +182,7 @@ public:
       m_reporter.progress("fit", static_cast<double>(round) / (ROUNDS + 1));
       add(drape_at(m_fit.material, m_tests.setup, decade,
                    1 + 100 * static_cast<std::uint64_t>(round)));
-      if (m_samples.empty())
+      if (m_samples.empty() || is_at_end(decade, target))
         break;
       line = regression(m_samples, decade);
       const double slope = line.slope > LEAST_SLOPE ? line.slope : TYPICAL_SLOPE;
@@ -194,7 +197,10 @@ public:
       decade =
           std::clamp(decade + step + aside, std::log10(LEAST_BENDING), std::log10(MOST_BENDING));
     }
+    const double last = line.at;
     line = regression(m_samples, decade);
+    if (line.n == 0)
+      line.at = last; // the last step led away from all drapes
     conclude(target, n, decade, line);
   }
 
@@ -204,6 +210,24 @@ private:
   void add(const std::vector<Sample>& samples) {
     m_samples.insert(m_samples.end(), samples.begin(), samples.end());
     m_fit.simulations += DRAPES;
+  }
+
+  /// Whether the last round went softer, or stiffer, to no effect, and the target lies farther that
+  /// way: cloth hangs or stands whatever it is made of, and more rounds would show no other.
+  bool is_at_end(double decade, double target) {
+    const std::optional<Round> before = m_last;
+    const Line now = regression(m_samples, decade);
+    m_last = Round{decade, now.at};
+    char text[80];
+    std::snprintf(text, sizeof text, "bending %.3g uN m drapes to a coefficient of %.1f %%",
+                  1e6 * std::pow(10, decade), 100 * now.at);
+    m_reporter.info(text);
+    if (!before || std::abs(decade - before->decade) < NEAR)
+      return false;
+    const double slope = (now.at - before->coefficient) / (decade - before->decade);
+    const bool hangs = decade < before->decade && target < now.at && now.at < STANDING_OUT;
+    const bool stands = decade > before->decade && target > now.at && now.at > STANDING_OUT;
+    return slope < LEAST_SLOPE && (hangs || stands);
   }
 
   /// How far the result moves when shear and stretch are off by their errors, and by its mesh, all
@@ -284,10 +308,15 @@ private:
     }
   }
 
+  /// A rigidity, and the coefficient of its drapes.
+  struct Round {
+    double decade, coefficient;
+  };
   const FabricTests& m_tests;
   MaterialFit& m_fit;
   Reporter& m_reporter;
   std::vector<Sample> m_samples;
+  std::optional<Round> m_last;
 };
 
 /// Both kinds of test, weighted by their relative errors.
@@ -388,10 +417,12 @@ io::Json material_fit_json(const MaterialFit& fit, const FabricTests& tests,
     j["drape"] = value(*fit.from_drape);
   if (!tests.coefficient.empty()) {
     j["coefficient_percent"] = {{"measured", 100 * mean_of(tests.coefficient)},
-                                {"drapes", tests.coefficient.size()},
-                                {"model", 100 * fit.coefficient},
-                                {"model_sd", 100 * fit.coefficient_sd}};
-    j["folds"] = {{"model", fit.folds}};
+                                {"drapes", tests.coefficient.size()}};
+    if (fit.from_drape) { // otherwise there is no result at which the model would be draped
+      j["coefficient_percent"]["model"] = 100 * fit.coefficient;
+      j["coefficient_percent"]["model_sd"] = 100 * fit.coefficient_sd;
+      j["folds"]["model"] = fit.folds;
+    }
     if (!tests.folds.empty()) {
       double mean = 0;
       for (int f : tests.folds)

@@ -2,13 +2,17 @@
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
 #include <garment/levels/turned_leaves.hpp>
+#include <garment/scene/fold_edges.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/parallel.hpp>
 #include <sloper/collision/topology.hpp>
+#include <sloper/garment/simulate/roll_line_states.hpp>
 #include <sloper/garment/simulate/telemetry.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/pattern.hpp>
 
+#include <algorithm>
 #include <chrono>
 
 namespace sloper::garment {
@@ -75,21 +79,21 @@ void clear_of_skin(Garment& garment, const collision::BodyCollider& skin, double
   }
 }
 
+/// Edge lengths of the coarse mesh: where cloth is turned over, it has edges along the roll line.
+/// With 48 mm the line of a collar of 5 cm would be left out, and the collar would stand.
+pattern::MeshLengths coarse_lengths(const pattern::Pattern& pattern) {
+  pattern::MeshLengths out{.usual = COARSE_EDGE};
+  for (const pattern::Panel& panel : pattern.panels)
+    out.of_panel.push_back(pattern::edge_length_for_rolls(panel, COARSE_EDGE));
+  return out;
+}
+
 /// The coarse mesh of the pattern, placed as the given panels are.
 pattern::PanelMesh coarse_panels(const pattern::PanelMesh& given) {
-  pattern::PanelMesh coarse =
-      pattern::mesh_pattern(*given.source, COARSE_EDGE, "the pattern of the panels", 0);
+  pattern::PanelMesh coarse = pattern::mesh_pattern(*given.source, coarse_lengths(*given.source),
+                                                    "the pattern of the panels");
   coarse.placed = interpolate(given, given.placed, coarse);
-  coarse.placement = given.placement;
-  coarse.body_sha256 = given.body_sha256;
-  for (pattern::PanelInfo& panel : coarse.panels)
-    for (const pattern::PanelInfo& same : given.panels)
-      if (same.name == panel.name)
-        panel.part = same.part;
-  for (pattern::MeshSeam& seam : coarse.seams)
-    for (const pattern::MeshSeam& same : given.seams)
-      if (same.name == seam.name)
-        seam.open = same.open;
+  take_over(given, coarse);
   return coarse;
 }
 
@@ -133,6 +137,7 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
   const auto began = Clock::now();
   try {
     cloth.panels = coarse_panels(given);
+    cloth.scene.creases.clear(); // roll lines of the pattern are pressed, others come later
     prepare(met, garment);
     if (const std::string why = sew(cloth, met, settings, reporter, report); !why.empty())
       return why;
@@ -150,8 +155,21 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
   clear_of_skin(fine, *met.collider(), CLEARANCE * settings.contact_gap_m);
   lay_leaves_over(fine, LEAF_GAP);
   report.phases.emplace_back("carry to the mesh", seconds_since(carried));
+  if (const std::string stands = standing_text(roll_line_states(fine)); !stands.empty())
+    return stands;
+  fine.scene = garment.scene;
   garment = std::move(fine);
   return "";
+}
+
+/// Whether a scene adds nothing but folds, along edges that the mesh has.
+static bool adds_folds_alone(const Garment& garment) {
+  SceneEffects others = garment.scene;
+  others.creases.clear();
+  const auto& folds = garment.scene.creases;
+  return others.empty() && std::all_of(folds.begin(), folds.end(), [&](const SceneCrease& fold) {
+           return is_meshed(garment, fold);
+         });
 }
 
 std::string refusal_of_levels(const Garment& garment, const body::Body* body,
@@ -164,7 +182,7 @@ std::string refusal_of_levels(const Garment& garment, const body::Body* body,
     return "there is no body";
   if (garment.panels.seams.empty())
     return "nothing is sewn";
-  if (!garment.scene.empty())
+  if (!adds_folds_alone(garment))
     return "the scene adds effects";
   for (const pattern::Panel& panel : garment.panels.source->panels)
     if (!panel.pleats.empty())

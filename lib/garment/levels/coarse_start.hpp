@@ -13,8 +13,9 @@
 namespace sloper::garment {
 
 /// Why these panels are not sewn on a coarse mesh; empty: they are. Asks for the pattern that they
-/// were made from, edges of at most 30 mm, a body, a garment without scene effects, pleats and
-/// edited rest lengths, and effects "auto" with none switched off.
+/// were made from, edges of at most 30 mm, a body, a garment without pleats, edited rest lengths
+/// and scene effects other than creases and roll lines that its mesh has edges along, and effects
+/// "auto" with none switched off.
 std::string refusal_of_levels(const Garment& garment, const body::Body* body,
                               const DrapeSettings& settings);
 

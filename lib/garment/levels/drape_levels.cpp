@@ -94,8 +94,8 @@ private:
       DrapeReport report = run_session();
       add_earlier(m_at.before, report);
       report.levels = m_at.before.levels;
-      if (is_last() || !report.converged)
-        return report; // what is not clear now seldom becomes so
+      if (is_last() || !report.converged || !standing().empty())
+        return report; // what is not clear now seldom becomes so, nor does what stands fold
       report.wall_s = elapsed();
       m_at.before = std::move(report);
       m_at.rung = rung_after(m_at.rung);

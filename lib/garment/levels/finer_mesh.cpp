@@ -105,6 +105,22 @@ std::vector<Vec3> interpolate(const pattern::PanelMesh& from, const std::vector<
   return out;
 }
 
+void take_over(const pattern::PanelMesh& given, pattern::PanelMesh& mesh) {
+  mesh.placement = given.placement;
+  mesh.body_sha256 = given.body_sha256;
+  for (pattern::PanelInfo& panel : mesh.panels)
+    for (const pattern::PanelInfo& same : given.panels)
+      if (same.name == panel.name) {
+        panel.part = same.part;
+        panel.material = same.material;
+        panel.layer = same.layer;
+      }
+  for (pattern::MeshSeam& seam : mesh.seams)
+    for (const pattern::MeshSeam& same : given.seams)
+      if (same.name == seam.name)
+        seam.open = same.open;
+}
+
 Garment on_finer_mesh(const Garment& coarse, const pattern::PanelMesh& mesh) {
   const std::vector<Triangle> triangles = coarse.particle_triangles();
   std::vector<Vec3> normal(coarse.position.size(), Vec3::Zero());

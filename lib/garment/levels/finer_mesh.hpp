@@ -12,6 +12,11 @@ namespace sloper::garment {
 std::vector<Vec3> interpolate(const pattern::PanelMesh& from, const std::vector<Vec3>& at,
                               const pattern::PanelMesh& mesh);
 
+/// What another mesh of a pattern does not know of a given one by itself: where its panels were
+/// placed, on which body, and their parts, materials, layers and open seams, each by its name.
+/// @param mesh  in and out; its `placed` stays
+void take_over(const pattern::PanelMesh& given, pattern::PanelMesh& mesh);
+
 /// The same cloth on a finer mesh, as smooth as the coarse triangles are not (Phong tessellation,
 /// Boubekeur and Alexa 2008). What is sewn stays sewn.
 /// @param coarse  sewn   @param mesh  of the same pattern

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double SNAP = 0.25;          // edge lengths: a line's end so near to a corner lies in it
 constexpr double SAME_ID = 1e-6;       // in (s, t), of a vertex before and after
+constexpr double MESHED_SHARE = 0.8;   // of a line that the mesh has edges along
 const std::string OF_SCENE = "scene-"; // begins the names of its lines
 
 /// A fold of a scene, as messages name it.
@@ -40,10 +41,18 @@ bool has_roll_line(const pattern::Panel& panel) {
                      [](const pattern::InnerLine& line) { return line.kind == "roll"; });
 }
 
-/// The pattern with the folds that the mesh lacks. @return whether there are any
-bool draw_folds(const Garment& garment, const std::string& file, pattern::Pattern& pattern) {
+/// A fold of a scene in the pattern.
+struct DrawnFold {
+  int panel;
+  std::string place; ///< its JSON pointer
+  pattern::Path path;
+};
+
+/// The pattern with the folds that the mesh lacks. @return these
+std::vector<DrawnFold> draw_folds(const Garment& garment, const std::string& file,
+                                  pattern::Pattern& pattern) {
   const pattern::Pattern& given = *garment.panels.source;
-  bool any = false;
+  std::vector<DrawnFold> out;
   for (const NamedFold& fold : folds_of(garment)) {
     const int p = given.find_panel(fold.crease->run.panel);
     if (p < 0)
@@ -59,31 +68,9 @@ bool draw_folds(const Garment& garment, const std::string& file, pattern::Patter
     pattern.panels[p].lines.push_back(fold.crease->turns
                                           ? pattern::roll_line(pattern, p, name, path)
                                           : pattern::InnerLine{name, "fold", path});
-    any = true;
+    out.push_back({p, fold.place, path});
   }
-  return any;
-}
-
-/// What the new mesh does not know of the given one by itself.
-void take_over(const pattern::PanelMesh& given, pattern::PanelMesh& mesh) {
-  mesh.placement = given.placement;
-  mesh.body_sha256 = given.body_sha256;
-  for (pattern::PanelInfo& panel : mesh.panels)
-    for (const pattern::PanelInfo& same : given.panels)
-      if (same.name == panel.name) {
-        panel.part = same.part;
-        panel.material = same.material;
-        panel.layer = same.layer;
-      }
-  for (pattern::MeshSeam& seam : mesh.seams)
-    for (const pattern::MeshSeam& same : given.seams)
-      if (same.name == seam.name)
-        seam.open = same.open;
-  std::vector<Message> findings = given.findings;
-  for (const Message& finding : mesh.findings)
-    if (finding.text.find(OF_SCENE) != std::string::npos)
-      findings.push_back(finding);
-  mesh.findings = findings;
+  return out;
 }
 
 /// Ids of edited panels stay as in the drawing before the edits.
@@ -101,7 +88,8 @@ void keep_ids(const pattern::PanelMesh& given, pattern::PanelMesh& mesh) {
   }
 }
 
-std::vector<Message> zigzags(const Garment& garment, const std::string& file) {
+/// Folds of a mesh that stays.
+std::vector<Message> off_mesh(const Garment& garment, const std::string& file) {
   std::vector<Message> out;
   for (const NamedFold& fold : folds_of(garment))
     if (!is_meshed(garment, *fold.crease))
@@ -112,19 +100,53 @@ std::vector<Message> zigzags(const Garment& garment, const std::string& file) {
   return out;
 }
 
+/// Folds that a mesh of the pattern that draws them has no room for. Their ends may lie between
+/// the outline and the first vertex off it.
+std::vector<Message> left_out(const pattern::PanelMesh& mesh, const std::vector<DrawnFold>& folds,
+                              const std::string& file) {
+  std::vector<Message> out;
+  for (const DrawnFold& fold : folds) {
+    const pattern::PanelInfo& panel = mesh.panels[fold.panel];
+    double meshed = 0;
+    for (const auto& [a, b] : pattern::edges_along(mesh, panel, fold.path))
+      meshed += (mesh.pattern[a] - mesh.pattern[b]).norm();
+    if (meshed < MESHED_SHARE * (pattern::length(fold.path) - 2 * mesh.edge_length))
+      out.push_back({"scene.fold-left-out"_id,
+                     file + ": " + fold.place + ": the mesh of panel " + panel.name +
+                         " has no edges along some of this line, which runs too near to the "
+                         "outline or to another line for edges of " +
+                         pattern::centimetres(mesh.edge_length) +
+                         "; give a smaller --edge-length, or move the line"});
+  }
+  return out;
+}
+
+/// Those of the given mesh; finer on panels that are turned over a line of the scene, where that
+/// needs it.
+pattern::MeshLengths lengths_for(const pattern::Pattern& drawn, const pattern::PanelMesh& given) {
+  pattern::MeshLengths out{.usual = given.edge_length, .seam = given.seam_length};
+  for (std::size_t p = 0; p < drawn.panels.size(); ++p) {
+    const bool is_drawn_on = drawn.panels[p].lines.size() > given.source->panels[p].lines.size();
+    out.of_panel.push_back(is_drawn_on
+                               ? pattern::edge_length_for_rolls(drawn.panels[p], given.edge_length)
+                               : given.edge_length);
+  }
+  return out;
+}
+
 } // namespace
 
 std::vector<Message> mesh_along_folds(Garment& garment, const body::Body* body,
                                       const std::string& skin, const std::string& file) {
   const bool is_loose = garment.particle_of.empty() && garment.panels.source;
   if (!is_loose)
-    return zigzags(garment, file);
+    return off_mesh(garment, file);
   pattern::Pattern drawn = *garment.panels.source;
-  if (!draw_folds(garment, file, drawn))
+  const std::vector<DrawnFold> folds = draw_folds(garment, file, drawn);
+  if (folds.empty())
     return {};
   const pattern::PanelMesh given = garment.panels;
-  pattern::PanelMesh mesh =
-      pattern::mesh_pattern(drawn, given.edge_length, file, given.seam_length);
+  pattern::PanelMesh mesh = pattern::mesh_pattern(drawn, lengths_for(drawn, given), file);
   const bool is_placed_here =
       body && given.placement == pattern::Placement::BODY && given.body_sha256 == skin;
   if (is_placed_here)
@@ -132,11 +154,12 @@ std::vector<Message> mesh_along_folds(Garment& garment, const body::Body* body,
   else
     mesh.placed = interpolate(given, given.placed, mesh);
   take_over(given, mesh);
+  mesh.findings = given.findings;
   keep_ids(given, mesh);
   garment.panels = std::move(mesh);
   if (!garment.rest_scale.empty())
     garment.rest_scale = pattern::tape_scales(garment.panels);
-  return zigzags(garment, file);
+  return left_out(garment.panels, folds, file);
 }
 
 } // namespace sloper::garment

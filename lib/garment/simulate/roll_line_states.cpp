@@ -1,4 +1,5 @@
 #include <sloper/base/units.hpp>
+#include <sloper/collision/triangle_tree.hpp>
 #include <sloper/garment/simulate/roll_line_states.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/mesh/folds.hpp>
@@ -18,6 +19,10 @@ constexpr double TURNED = units::PI / 3; // a collar that lies out on the should
 constexpr double STANDING = 0.25; // below: the line did not turn
 constexpr double MOSTLY = 0.5;    // below: it turned in part, which is a warning
 constexpr int SAMPLES = 200;      // of a line, for its direction
+constexpr double BESIDE = 0.035;  // m from a leaf within which cloth that it lies on is looked for
+// Cosine between the nearest cloth's normal and the direction from it: beside a free edge less,
+// and there the angle alone says to which side cloth is turned.
+constexpr double ABOVE = 0.7;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -25,7 +30,36 @@ double cross(const Vec2& a, const Vec2& b) {
 
 /// The turn of one triangle beyond the line.
 struct Turn {
-  double angle, weight; ///< rad, and area times distance from the line, m3
+  double angle, weight; ///< rad, below 0 inwards; and area times distance from the line, m3
+};
+
+/// Cloth that a leaf may lie on: all that is not beyond one of the panel's lines.
+class OtherCloth {
+public:
+  OtherCloth(const Garment& garment, std::vector<Triangle> triangles)
+      : m_triangles(std::move(triangles)), m_tree(garment.position, m_triangles),
+        m_normals(vertex_normals({garment.position, m_triangles})) {}
+
+  /// @return 1 where a place lies outside of the nearest cloth, -1 inside, 0 where that is not said
+  int side_of(const Vec3& at) const {
+    const collision::ClosestPoint near = m_tree.closest_point(at, BESIDE);
+    if (near.triangle < 0)
+      return 0;
+    const Triangle& t = m_triangles[near.triangle];
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < t.size(); ++k)
+      normal += near.barycentric[static_cast<int>(k)] * m_normals[t[k]];
+    const Vec3 off = at - near.point;
+    const double above = off.dot(normal.normalized());
+    if (std::abs(above) < ABOVE * off.norm())
+      return 0;
+    return above < 0 ? -1 : 1;
+  }
+
+private:
+  std::vector<Triangle> m_triangles;
+  collision::TriangleTree m_tree;
+  std::vector<Vec3> m_normals;
 };
 
 /// An edge of the mesh along the line, and how the cloth goes that comes to it.
@@ -47,9 +81,26 @@ public:
     }
     for (const std::array<int, 2>& edge : pattern::edges_along(garment.panels, panel, path))
       add(edge);
-    measure();
+    find_leaf();
   }
-  const std::vector<Turn>& turns() const { return m_turns; }
+  const std::vector<int>& leaf() const { return m_leaf; } ///< triangles beyond the line
+
+  /// How each triangle of the leaf is turned.
+  std::vector<Turn> turns(const OtherCloth& other) const {
+    std::vector<Turn> out;
+    for (const int f : m_leaf) {
+      const LineEdge& edge = nearest_edge(middle(f));
+      const Vec3 on = carried(f, edge.left);
+      const double out_of = on.dot(edge.outside);
+      const double angle = std::atan2(std::abs(out_of), on.dot(edge.to));
+      int side = out_of < 0 ? -1 : 1;
+      if (angle > TURNED) // nearly back on itself a direction says little
+        if (const int lies = other.side_of(hung_middle(f)); lies != 0)
+          side = lies;
+      out.push_back({side * angle, (middle(f) - edge.middle).dot(edge.left) * area(f)});
+    }
+    return out;
+  }
 
 private:
   const Vec2& flat(int v) const { return m_garment.panels.pattern[v]; }
@@ -63,6 +114,7 @@ private:
     const Triangle& t = m_garment.panels.triangles[f];
     return (flat(t[0]) + flat(t[1]) + flat(t[2])) / 3;
   }
+  Vec3 hung_middle(int f) const { return (hung(f, 0) + hung(f, 1) + hung(f, 2)) / 3; }
   double area(int f) const {
     const Triangle& t = m_garment.panels.triangles[f];
     return 0.5 * cross(flat(t[1]) - flat(t[0]), flat(t[2]) - flat(t[0]));
@@ -131,20 +183,19 @@ private:
     }
   }
 
-  void measure() {
+  const LineEdge& nearest_edge(const Vec2& at) const {
+    return *std::min_element(m_edges.begin(), m_edges.end(),
+                             [&](const LineEdge& a, const LineEdge& b) {
+                               return (a.middle - at).squaredNorm() < (b.middle - at).squaredNorm();
+                             });
+  }
+
+  void find_leaf() {
     for (int f = m_panel.first_triangle;
          !m_edges.empty() && f < m_panel.first_triangle + m_panel.n_triangles; ++f) {
-      const Vec2 at = middle(f);
-      const LineEdge& edge = *std::min_element(
-          m_edges.begin(), m_edges.end(), [&](const LineEdge& a, const LineEdge& b) {
-            return (a.middle - at).squaredNorm() < (b.middle - at).squaredNorm();
-          });
-      const double beyond = (at - edge.middle).dot(edge.left);
-      if (beyond <= 0)
-        continue;
-      const Vec3 on = carried(f, edge.left);
-      const double angle = std::atan2(std::abs(on.dot(edge.outside)), on.dot(edge.to));
-      m_turns.push_back({angle, beyond * area(f)});
+      const LineEdge& edge = nearest_edge(middle(f));
+      if ((middle(f) - edge.middle).dot(edge.left) > 0)
+        m_leaf.push_back(f);
     }
   }
 
@@ -153,21 +204,21 @@ private:
   const pattern::PanelInfo& m_panel;
   std::vector<Vec2> m_points, m_tangents;
   std::vector<LineEdge> m_edges;
-  std::vector<Turn> m_turns;
+  std::vector<int> m_leaf;
 };
 
-RollLineState state_of(std::vector<Turn> turns) {
+void measure(std::vector<Turn> turns, RollLineState& out) {
   std::sort(turns.begin(), turns.end(),
             [](const Turn& a, const Turn& b) { return a.angle < b.angle; });
-  double all = 0, turned = 0;
+  double all = 0, turned = 0, inwards = 0;
   for (const Turn& t : turns) {
     all += t.weight;
     turned += t.angle > TURNED ? t.weight : 0;
+    inwards += t.angle < -TURNED ? t.weight : 0;
   }
-  RollLineState out;
   out.turned_share = turned / all;
+  out.inwards_share = inwards / all;
   out.turn = turns[turns.size() / 2].angle;
-  return out;
 }
 
 } // namespace
@@ -187,17 +238,31 @@ std::vector<RollLineState> roll_line_states(const Garment& garment) {
   if (!knows)
     return out;
   const std::vector<Triangle> triangles = garment.particle_triangles();
+  std::vector<RolledLine> lines;
+  std::vector<char> is_leaf(triangles.size(), 0);
   for (std::size_t p = 0; p < panels.panels.size(); ++p)
     for (const pattern::InnerLine& line : panels.source->panels[p].lines) {
       if (line.kind != "roll")
         continue;
-      const RolledLine rolled(garment, triangles, panels.panels[p], line.path);
-      if (rolled.turns().empty())
+      RolledLine rolled(garment, triangles, panels.panels[p], line.path);
+      if (rolled.leaf().empty())
         continue;
-      out.push_back(state_of(rolled.turns()));
+      for (const int f : rolled.leaf())
+        is_leaf[f] = 1;
+      lines.push_back(std::move(rolled));
+      out.emplace_back();
       out.back().panel = panels.panels[p].name;
       out.back().line = line.name;
     }
+  if (lines.empty())
+    return out;
+  std::vector<Triangle> others;
+  for (std::size_t f = 0; f < triangles.size(); ++f)
+    if (!is_leaf[f])
+      others.push_back(triangles[f]);
+  const OtherCloth other(garment, std::move(others));
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    measure(lines[k].turns(other), out[k]);
   return out;
 }
 
@@ -208,13 +273,17 @@ io::Json roll_lines_json(const std::vector<RollLineState>& states) {
                    {"line", state.line},
                    {"turned", state.is_turned()},
                    {"turned_share", state.turned_share},
+                   {"inwards_share", state.inwards_share},
                    {"turn_deg", units::degrees(state.turn)}});
   return out;
 }
 
 std::string turned_text(const RollLineState& state) {
   return "roll line " + state.line + " of panel " + state.panel + " turned over " +
-         std::to_string(std::lround(100 * state.turned_share)) + " % of what lies beyond it";
+         std::to_string(std::lround(100 * state.turned_share)) + " % of what lies beyond it" +
+         (state.inwards_share >= STANDING
+              ? ", and " + std::to_string(std::lround(100 * state.inwards_share)) + " % inwards"
+              : "");
 }
 
 std::string standing_text(const std::vector<RollLineState>& states) {

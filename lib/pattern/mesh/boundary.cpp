@@ -112,15 +112,18 @@ struct EdgeVertices {
 
 class Sampler {
 public:
-  Sampler(const Pattern& pattern, double h, double seam_h, const std::string& file)
-      : m_pattern(pattern), m_h(h), m_seam_h(seam_h), m_file(file) {}
+  Sampler(const Pattern& pattern, double h, double seam_h, const std::string& file,
+          const std::vector<double>& of_panel)
+      : m_pattern(pattern), m_h(of_panel), m_seam_h(seam_h), m_file(file) {
+    m_h.resize(pattern.panels.size(), h);
+  }
 
   Boundary run() {
     m_pieces.resize(m_pattern.panels.size());
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p)
       m_pieces[p].resize(static_cast<std::size_t>(m_pattern.panels[p].n_edges()));
-    for (const Panel& panel : m_pattern.panels)
-      m_chord.push_back(chord_limit(panel));
+    for (std::size_t p = 0; p < m_pattern.panels.size(); ++p)
+      m_chord.push_back(chord_limit(m_pattern.panels[p], m_h[p]));
     m_pairs.resize(m_pattern.seams.size());
     for (std::size_t s = 0; s < m_pattern.seams.size(); ++s)
       if (m_pattern.seams[s].kind != "pleat")
@@ -143,7 +146,7 @@ private:
 
   /// Longest chord on curves for which all chords together cut off less than 0.05 % of the panel:
   /// an arc that turns by T in chords of length c loses T c^2 / 12.
-  double chord_limit(const Panel& panel) const {
+  static double chord_limit(const Panel& panel, double h) {
     double turn = 0, area = 0;
     for (const auto& loop : panel.loops) {
       std::vector<Path> paths;
@@ -154,18 +157,32 @@ private:
       }
       area += signed_area(paths);
     }
-    return std::max(turn > 0 ? std::sqrt(12 * 5e-4 * std::abs(area) / turn) : m_h, m_h / 3);
+    return std::max(turn > 0 ? std::sqrt(12 * 5e-4 * std::abs(area) / turn) : h, h / 3);
+  }
+
+  /// Edge length between two runs that are sewn to each other, m: the finer panel's.
+  double seam_length(const Run& a, const Run& b) const {
+    return std::min({m_seam_h, m_h[a.panel], m_h[b.panel]});
+  }
+
+  /// Of the panels of a seam, m.
+  double least_length(const Seam& seam) const {
+    double least = m_h[seam.a[0].panel];
+    for (const auto* side : {&seam.a, &seam.b})
+      for (const Run& run : *side)
+        least = std::min(least, m_h[run.panel]);
+    return least;
   }
 
   /// Segments that a run needs on account of its bends.
   int segments_for_bends(const Run& run) const {
-    const double limit = m_chord[run.panel];
-    if (limit >= m_h)
+    const double limit = m_chord[run.panel], h = m_h[run.panel];
+    if (limit >= h)
       return 0;
     const ArcLength arc(m_pattern.panels[run.panel].edge(run.edge).path);
     const double s0 = std::min(run.from, run.to) * arc.length(),
                  s1 = std::max(run.from, run.to) * arc.length();
-    if (turning(arc, s0, s1) * (s1 - s0) < 0.3 * m_h)
+    if (turning(arc, s0, s1) * (s1 - s0) < 0.3 * h)
       return 0; // bends gently: shorter chords would gain next to nothing
     return static_cast<int>(std::ceil((s1 - s0) / limit));
   }
@@ -197,11 +214,12 @@ private:
     const double length_a = side_length(m_pattern, seam.a),
                  length_b = side_length(m_pattern, seam.b),
                  shorter = std::max(std::min(length_a, length_b), 1e-9);
-    const auto breaks = matched_breaks(a, b, std::max(0.5 * m_h / shorter, 0.01));
+    const auto breaks = matched_breaks(a, b, std::max(0.5 * least_length(seam) / shorter, 0.01));
     for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
       Pair pair{a.stretch(breaks[k][0], breaks[k + 1][0]),
                 b.stretch(breaks[k][1], breaks[k + 1][1])};
-      pair.n = segments_for(piece_length(pair.a), piece_length(pair.b), m_seam_h);
+      const double h = seam_length(pair.a, pair.b);
+      pair.n = segments_for(piece_length(pair.a), piece_length(pair.b), h);
       if (pair.n > 0)
         pair.n = std::max({pair.n, segments_for_bends(pair.a), segments_for_bends(pair.b)});
       if (pair.n == 0)
@@ -209,7 +227,7 @@ private:
             {"mesh.stretch-merged"_id,
              place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) +
                  ": a stretch of " + centimetres(piece_length(pair.a)) +
-                 " is merged into its neighbours (edge length " + centimetres(m_seam_h) + ")"});
+                 " is merged into its neighbours (edge length " + centimetres(h) + ")"});
       add_piece(pair.a, pair.n);
       add_piece(pair.b, pair.n);
       m_pairs[s].push_back(pair);
@@ -233,14 +251,14 @@ private:
     if (1 - at > 1e-7)
       gaps.push_back({at, 1});
     for (const auto& [from, to] : gaps)
-      pieces.push_back(
-          {upper.panel,
-           upper.edge,
-           from,
-           to,
-           std::max(1, segments_for((to - from) * total, (to - from) * total, m_seam_h)),
-           true,
-           {}});
+      pieces.push_back({upper.panel,
+                        upper.edge,
+                        from,
+                        to,
+                        std::max(1, segments_for((to - from) * total, (to - from) * total,
+                                                 seam_length(layer, upper))),
+                        true,
+                        {}});
     std::sort(pieces.begin(), pieces.end(),
               [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
     const bool turned = (layer.from < layer.to) != (upper.from < upper.to);
@@ -275,12 +293,12 @@ private:
                         static_cast<int>(e),
                         at,
                         to,
-                        segments_for((to - at) * total, (to - at) * total, m_h),
+                        segments_for((to - at) * total, (to - at) * total, m_h[p]),
                         false,
                         {}};
         if (piece.n > 0)
           piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
-        if (piece.n > 0 && m_seam_h < m_h)
+        if (piece.n > 0 && m_seam_h < m_h[p])
           grade(piece, (to - at) * total);
         if (piece.n == 0)
           m_out.findings.push_back({"mesh.stretch-merged"_id,
@@ -325,7 +343,8 @@ private:
     const bool start = meets_seam(piece, true), end = meets_seam(piece, false);
     if (!start && !end)
       return;
-    std::vector<double> inner = graded_fractions(piece_length, m_h, m_seam_h, start, end);
+    std::vector<double> inner =
+        graded_fractions(piece_length, m_h[piece.panel], m_seam_h, start, end);
     if (static_cast<int>(inner.size()) + 1 < piece.n)
       return;
     piece.n = static_cast<int>(inner.size()) + 1;
@@ -383,13 +402,13 @@ private:
         if (first_edge == 0 || sewn(p, first_edge, e))
           throw input_error("mesh.outline-too-small"_id, m_file, panel.name,
                             "the outline is too small: " + std::to_string(n_kept) +
-                                " vertices at an edge length of " + centimetres(m_h),
+                                " vertices at an edge length of " + centimetres(m_h[p]),
                             "give a smaller --edge-length");
         // An eyelet or a drill hole that the mesh is too coarse for; nothing is sewn to it.
-        m_out.findings.push_back(
-            {"mesh.hole-left-out"_id, panel.name + ": the hole at " + loop.front().name +
-                                          " is smaller than the mesh's edges (" + centimetres(m_h) +
-                                          ") and is left out; a smaller --edge-length keeps it"});
+        m_out.findings.push_back({"mesh.hole-left-out"_id,
+                                  panel.name + ": the hole at " + loop.front().name +
+                                      " is smaller than the mesh's edges (" + centimetres(m_h[p]) +
+                                      ") and is left out; a smaller --edge-length keeps it"});
         out.edge_of.resize(out.edge_of.size() - points.size());
         continue;
       }
@@ -448,7 +467,8 @@ private:
   }
 
   const Pattern& m_pattern;
-  double m_h, m_seam_h;
+  std::vector<double> m_h; ///< by panel, m
+  double m_seam_h;
   std::string m_file;
   std::vector<std::vector<std::vector<EdgePiece>>> m_pieces; ///< by panel, edge
   std::vector<std::vector<Pair>> m_pairs;                    ///< by seam
@@ -459,8 +479,9 @@ private:
 
 } // namespace
 
-Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file, double seam_h) {
-  return Sampler(pattern, h, seam_h > 0 ? std::min(seam_h, h) : h, file).run();
+Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file, double seam_h,
+                         const std::vector<double>& of_panel) {
+  return Sampler(pattern, h, seam_h > 0 ? std::min(seam_h, h) : h, file, of_panel).run();
 }
 
 } // namespace sloper::pattern

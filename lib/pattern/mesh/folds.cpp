@@ -22,6 +22,9 @@ constexpr int OUTLINE_SAMPLES = 16; // of an edge, to see on which side of a rol
 constexpr double NEARLY =
     0.97; // of the way from fold to target: both folds of a box pleat must not touch
 
+constexpr double ROWS_BEYOND = 2; // of triangles beyond a roll line: a single one cannot lie flat
+constexpr double MOST_TIMES_FINER = 8; // than usual are the edges of a panel with roll lines
+
 /// A pleat on one edge: fractions of its length.
 struct Stretch {
   const Pleat* pleat;
@@ -120,6 +123,36 @@ void turn_over(const RollLines& rolls, double stands_off, const PanelMesh& mesh,
     out.shift[v] += foot + std::cos(off) * (image - foot) - x;
     out.depth[v] -= ROLL_DEPTH * t * (2 - t) + std::sin(off) * beyond;
   }
+}
+
+/// Places along the outer loop.
+std::vector<Vec2> outline_samples(const Panel& panel) {
+  std::vector<Vec2> out;
+  for (const PanelEdge& edge : panel.loops[0]) {
+    const ArcLength arc(edge.path);
+    for (int k = 0; k < OUTLINE_SAMPLES; ++k)
+      out.push_back(arc.at(arc.length() * k / OUTLINE_SAMPLES));
+  }
+  return out;
+}
+
+/// Of a path from a closed line, m: half of it is farther. Its ends may lie on the line.
+double median_distance(const Path& path, const std::vector<Vec2>& closed) {
+  const ArcLength arc(path);
+  std::vector<double> distances;
+  for (int k = 0; k <= OUTLINE_SAMPLES; ++k) {
+    const Vec2 p = arc.at(arc.length() * k / OUTLINE_SAMPLES);
+    double least = 1e300;
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+      const Vec2 a = closed[i], along = closed[(i + 1) % closed.size()] - a;
+      const double t =
+          std::clamp((p - a).dot(along) / std::max(along.squaredNorm(), 1e-18), 0.0, 1.0);
+      least = std::min(least, (a + t * along - p).norm());
+    }
+    distances.push_back(least);
+  }
+  std::nth_element(distances.begin(), distances.begin() + OUTLINE_SAMPLES / 2, distances.end());
+  return distances[OUTLINE_SAMPLES / 2];
 }
 
 void fold_panel(Pattern& pattern, int p, const std::string& file) {
@@ -284,13 +317,29 @@ bool turned_whole(const Panel& panel) {
   const RollLines rolls(panel);
   if (rolls.empty())
     return false;
-  for (const PanelEdge& edge : panel.loops[0]) {
-    const ArcLength arc(edge.path);
-    for (int k = 0; k < OUTLINE_SAMPLES; ++k)
-      if (rolls.across(arc.at(arc.length() * k / OUTLINE_SAMPLES)).first < -LINE_ON_EDGE)
-        return false;
-  }
+  for (const Vec2& x : outline_samples(panel))
+    if (rolls.across(x).first < -LINE_ON_EDGE)
+      return false;
   return true;
+}
+
+double edge_length_for_rolls(const Panel& panel, double usual) {
+  if (turned_whole(panel))
+    return usual;
+  const std::vector<Vec2> outline = outline_samples(panel);
+  double length = usual;
+  for (const InnerLine& line : panel.lines) {
+    if (line.kind != "roll")
+      continue;
+    Panel alone = panel;
+    alone.lines = {line};
+    const RollLines roll(alone);
+    double beyond = 0;
+    for (const Vec2& x : outline)
+      beyond = std::max(beyond, roll.across(x).first);
+    length = std::min({length, beyond / ROWS_BEYOND, median_distance(line.path, outline)});
+  }
+  return std::max(length, usual / MOST_TIMES_FINER);
 }
 
 std::vector<std::array<int, 2>> edges_along(const PanelMesh& mesh, const PanelInfo& panel,

@@ -62,24 +62,47 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
   mesh.findings.push_back({"mesh.small-angle"_id, text});
 }
 
-/// Fine along the seams of a panel where that is asked for.
+/// Edge length of a panel, m.
+double length_of(const MeshLengths& lengths, std::size_t panel) {
+  return panel < lengths.of_panel.size() ? lengths.of_panel[panel] : lengths.usual;
+}
+
+/// What edges of panel `p` ask for, m: along seams that of seams, and that of the panel at the
+/// other side where it is finer.
+std::vector<double> length_along_edges(const Pattern& pattern, std::size_t p, double seam,
+                                       const MeshLengths& lengths) {
+  const double own = length_of(lengths, p);
+  std::vector<double> out(static_cast<std::size_t>(pattern.panels[p].n_edges()), own);
+  const auto look = [&](const std::vector<Run>& side, const std::vector<Run>& other) {
+    double least = seam > 0 ? seam : own;
+    for (const Run& run : other)
+      least = std::min(least, length_of(lengths, run.panel));
+    for (const Run& run : side)
+      if (run.panel == static_cast<int>(p))
+        out[run.edge] = std::min(out[run.edge], least);
+  };
+  for (const Seam& s : pattern.seams) {
+    look(s.a, s.b);
+    look(s.b, s.a);
+  }
+  return out;
+}
+
+/// Fine along the seams of a panel where that is asked for, and where finer panels are sewn to it.
 SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::PanelBoundary& boundary,
-                     const PanelMesh& mesh) {
-  if (mesh.seam_length <= 0)
-    return SizeField(mesh.edge_length);
-  std::vector<char> sewn(static_cast<std::size_t>(pattern.panels[p].n_edges()), 0);
-  for (const Seam& s : pattern.seams)
-    for (const auto* side : {&s.a, &s.b})
-      for (const Run& r : *side)
-        if (r.panel == static_cast<int>(p))
-          sewn[r.edge] = 1;
+                     double seam, const MeshLengths& lengths) {
+  const double own = length_of(lengths, p);
+  const std::vector<double> along = length_along_edges(pattern, p, seam, lengths);
+  const double fine = *std::min_element(along.begin(), along.end());
+  if (fine >= own)
+    return SizeField(own);
   std::vector<std::array<Vec2, 2>> lines;
   std::size_t v = 0;
   for (const auto& loop : boundary.loops)
     for (std::size_t k = 0; k < loop.size(); ++k, ++v)
-      if (sewn[boundary.edge_of[v]])
+      if (along[boundary.edge_of[v]] < own)
         lines.push_back({loop[k], loop[(k + 1) % loop.size()]});
-  return SizeField(mesh.edge_length, mesh.seam_length, std::move(lines));
+  return SizeField(own, fine, std::move(lines));
 }
 
 double distance_to_line(const std::vector<Vec2>& loop, bool closed, const Vec2& p) {
@@ -208,14 +231,20 @@ MeshMemory::MeshMemory(MeshMemory&&) noexcept = default;
 
 PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::string& file,
                        double seam_length, MeshMemory* memory) {
+  return mesh_pattern(drawn, MeshLengths{.usual = edge_length, .seam = seam_length}, file, memory);
+}
+
+PanelMesh mesh_pattern(const Pattern& drawn, const MeshLengths& lengths, const std::string& file,
+                       MeshMemory* memory) {
   const Pattern pattern = with_folds(drawn, file);
   PanelMesh mesh;
   mesh.name = pattern.name;
-  mesh.edge_length = edge_length;
-  mesh.seam_length = seam_length > 0 && seam_length < edge_length ? seam_length : 0;
+  mesh.edge_length = lengths.usual;
+  mesh.seam_length = lengths.seam > 0 && lengths.seam < lengths.usual ? lengths.seam : 0;
   mesh.source = std::make_shared<Pattern>(drawn);
   mesh.findings = pattern.findings;
-  const Boundary boundary = sample_boundary(pattern, edge_length, file, mesh.seam_length);
+  const Boundary boundary =
+      sample_boundary(pattern, lengths.usual, file, mesh.seam_length, lengths.of_panel);
   mesh.findings.insert(mesh.findings.end(), boundary.findings.begin(), boundary.findings.end());
 
   std::vector<FlatMesh> flat(pattern.panels.size());
@@ -223,8 +252,9 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
   std::vector<MeshMemory::Panels::Task> tasks;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Boundary::PanelBoundary& b = boundary.panels[p];
-    tasks.push_back({b.loops, sampled_lines(pattern.panels[p], b, edge_length, mesh.findings),
-                     b.must_split, size_field(pattern, p, b, mesh)});
+    tasks.push_back({b.loops,
+                     sampled_lines(pattern.panels[p], b, length_of(lengths, p), mesh.findings),
+                     b.must_split, size_field(pattern, p, b, mesh.seam_length, lengths)});
   }
   require_few_vertices(pattern, mesh, file);
   parallel_for(pattern.panels.size(), 1, [&](std::size_t begin, std::size_t end) {

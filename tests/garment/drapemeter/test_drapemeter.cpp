@@ -160,6 +160,24 @@ TEST(MaterialFit, says_so_where_overhang_and_drape_contradict_each_other) {
   EXPECT_NEAR(fit.material.bend_n_m, 0.12 * 9.80665 * std::pow(0.5 * 0.211 / 3, 3), 1e-9);
 }
 
+TEST(MaterialFit, ends_where_softer_cloth_drapes_no_softer_and_names_no_coefficient_of_the_model) {
+  // It went on softer and softer for 28 drapes and more than 60 CPU seconds, and wrote 0 %.
+  FabricTests tests;
+  tests.base = material_preset("cotton-poplin");
+  tests.setup.edge_m = 0.012;
+  tests.coefficient = {0.2, 0.22};
+  const MaterialFit fit = fit_material(tests, silent_reporter());
+  EXPECT_FALSE(fit.from_drape);
+  EXPECT_LE(fit.simulations, 16);
+  ASSERT_FALSE(fit.cannot_tell.empty());
+  EXPECT_NE(fit.cannot_tell.back().find("is below what any cloth"), std::string::npos)
+      << fit.cannot_tell.back();
+  const io::Json document = material_fit_json(fit, tests, "test");
+  EXPECT_FALSE(document["fit"]["coefficient_percent"].contains("model"));
+  EXPECT_EQ(document["fit"]["coefficient_percent"]["drapes"], 2);
+  EXPECT_FALSE(document["fit"].contains("folds"));
+}
+
 TEST(MaterialFit, what_nothing_can_have_is_refused) {
   FabricTests tests;
   tests.base = material_preset("silk");

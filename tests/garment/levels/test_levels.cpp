@@ -108,6 +108,21 @@ TEST(FinerMesh, a_mesh_interpolated_to_itself_is_the_same) {
   EXPECT_LT(largest_difference(interpolate(mesh, mesh.placed, mesh), mesh.placed), 1e-12);
 }
 
+TEST(FinerMesh, another_mesh_takes_over_what_only_the_given_one_knows) {
+  pattern::PanelMesh given = two_pieces(0.06);
+  given.body_sha256 = "skin";
+  given.panels[1].material = "interfaced";
+  given.panels[1].layer = 2;
+  given.panels[1].part = "torso";
+  pattern::PanelMesh mesh = two_pieces(0.03);
+  take_over(given, mesh);
+  EXPECT_EQ(mesh.body_sha256, "skin");
+  EXPECT_EQ(mesh.panels[1].material, "interfaced") << "coarse cloth was as soft as without";
+  EXPECT_EQ(mesh.panels[1].layer, 2);
+  EXPECT_EQ(mesh.panels[1].part, "torso");
+  EXPECT_EQ(mesh.panels[0].material, given.panels[0].material);
+}
+
 TEST(FinerMesh, cloth_around_a_cylinder_is_rounder_than_its_coarse_triangles) {
   const double radius = 0.8 / (2 * M_PI); // m: both pieces go around it
   Garment coarse;

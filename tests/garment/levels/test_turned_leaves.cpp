@@ -8,8 +8,11 @@
 #include <sloper/garment/composite.hpp>
 #include <sloper/garment/drape/drape.hpp>
 #include <sloper/garment/materials.hpp>
+#include <sloper/garment/scene/scene_folds.hpp>
 #include <sloper/garment/sewing.hpp>
+#include <sloper/garment/simulate/roll_line_states.hpp>
 #include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/fold_lines.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
@@ -67,6 +70,80 @@ TEST(TurnedLeaves, a_leaf_beneath_the_front_comes_to_lie_on_it_and_the_front_sta
 TEST(TurnedLeaves, a_leaf_that_lies_on_the_front_is_left_as_it_is) {
   Garment garment = front_with_leaf(0.01);
   EXPECT_EQ(lay_leaves_over(garment, 0.003), 0);
+}
+
+namespace {
+
+/// A shirt drafted for a figure, loose, on edges of 20 mm.
+struct DraftedShirt {
+  body::Body body;
+  Garment garment;
+};
+
+/// @param drawn  whether its pattern turns the collar over a curve at 0.3 of the way to its free
+/// edge
+DraftedShirt drafted_shirt(const std::string& figure, bool drawn) {
+  const samples::MadeMannequin made = samples::make_mannequin(samples::preset(figure));
+  DraftedShirt out;
+  out.body = body::measure_scan(made.mesh, "figure", "", {}, silent_reporter()).body;
+  pattern::Pattern source =
+      pattern::read_pattern_json(samples::pattern_document(samples::draft_shirt(
+                                     samples::measures_from_body(made.truth, "figure"))),
+                                 "shirt");
+  const int collar = source.find_panel("collar");
+  if (drawn) {
+    const auto edge = [&](const std::string& name) {
+      for (const pattern::PanelEdge& e : source.panels[collar].loops[0])
+        if (e.name == name)
+          return pattern::ArcLength(e.path);
+      throw std::runtime_error("no edge " + name);
+    };
+    const pattern::ArcLength low = edge("low"), free = edge("free");
+    std::vector<Vec2> points;
+    for (int k = 0; k <= 8; ++k)
+      points.push_back(0.7 * low.at(low.length() * k / 8) +
+                       0.3 * free.at(free.length() * (1 - k / 8.0)));
+    source.panels[collar].lines.push_back(
+        pattern::roll_line(source, collar, "roll", pattern::curve_through(points)));
+  }
+  out.garment.panels = pattern::mesh_pattern(source, 0.02, "shirt");
+  pattern::place_panels(source, out.body, out.garment.panels);
+  out.garment.materials[""] = material_preset("cotton-poplin");
+  return out;
+}
+
+void expect_turned(const Garment& garment, const DrapeReport& report) {
+  EXPECT_TRUE(report.converged) << stop_text(report);
+  EXPECT_EQ(report.levels.meshes, 2) << report.levels.why;
+  const std::vector<RollLineState> states = roll_line_states(garment);
+  ASSERT_EQ(states.size(), 1u);
+  EXPECT_GT(states[0].turned_share, 0.9);
+  EXPECT_LT(states[0].inwards_share, 0.05);
+}
+
+} // namespace
+
+TEST(TurnedLeaves, a_collar_turns_over_a_line_in_it_on_the_coarse_mesh_already) {
+  // That mesh had no edges along the line: the collar stood, and all was sewn on the given mesh.
+  DraftedShirt shirt = drafted_shirt("f-165-plus", true);
+  const DrapeReport report =
+      drape(shirt.garment, &shirt.body, preset_settings("draft"), silent_reporter());
+  expect_turned(shirt.garment, report);
+}
+
+TEST(TurnedLeaves, a_collar_turns_over_a_line_of_the_scene_by_way_of_the_coarse_mesh) {
+  DraftedShirt shirt = drafted_shirt("f-165-a", false);
+  SceneCrease crease;
+  crease.run = {"collar", Vec2(0.06, 0.06), Vec2(0.94, 0.06)};
+  crease.via = {Vec2(0.5, 0.62)};
+  crease.angle_rad = -165 * M_PI / 180;
+  crease.firmness = 30;
+  crease.turns = true;
+  shirt.garment.scene.creases = {crease};
+  EXPECT_TRUE(mesh_along_folds(shirt.garment, &shirt.body, "", "scene.json").empty());
+  const DrapeReport report =
+      drape(shirt.garment, &shirt.body, preset_settings("draft"), silent_reporter());
+  expect_turned(shirt.garment, report);
 }
 
 TEST(TurnedLeaves, a_collar_with_interfacing_rests_outside_of_the_shirt) {

@@ -109,6 +109,34 @@ TEST(SceneFolds, IdsOfAnEditedPanelStay) {
     EXPECT_NEAR(garment.panels.ids[v].s, 0.5 + 0.5 * garment.panels.pattern[v].x() / 0.24, 1e-9);
 }
 
+TEST(SceneFolds, ALineThatTheMeshHasNoRoomForIsTold) {
+  Garment garment = strip();
+  SceneCrease crease = roll();
+  crease.run = {"strip", Vec2(0, 0.4 / 7.5), Vec2(1, 0.4 / 7.5)};
+  crease.via = {Vec2(0.5, 1.9 / 7.5)};
+  garment.scene.creases = {crease};
+  const std::vector<Message> findings = mesh_along_folds(garment, nullptr, "", "scene.json");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].id, "scene.fold-left-out");
+  EXPECT_NE(findings[0].text.find(
+                "scene.json: /creases/0: the mesh of panel strip has no edges along some"),
+            std::string::npos)
+      << findings[0].text;
+  for (const Message& finding : garment.panels.findings)
+    EXPECT_NE(finding.id, "mesh.line-left-out") << finding.text;
+}
+
+TEST(SceneFolds, ARollLineNearTheOutlineGetsAFinerPanel) {
+  Garment garment = strip();
+  SceneCrease crease = roll();
+  crease.run = {"strip", Vec2(0, 0.6 / 7.5), Vec2(1, 0.6 / 7.5)};
+  crease.via = {Vec2(0.5, 2.1 / 7.5)};
+  crease.turns = true;
+  garment.scene.creases = {crease};
+  EXPECT_TRUE(mesh_along_folds(garment, nullptr, "", "scene.json").empty());
+  EXPECT_TRUE(is_meshed(garment, crease));
+}
+
 TEST(SceneFolds, ASewnGarmentKeepsItsMeshAndItIsTold) {
   Garment garment = strip();
   garment.scene.creases = {roll()};

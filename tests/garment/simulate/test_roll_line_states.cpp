@@ -55,6 +55,32 @@ TEST(RollLineStates, the_turn_is_that_of_the_cloth) {
   }
 }
 
+TEST(RollLineStates, a_leaf_that_is_turned_inwards_is_not_turned_over) {
+  for (const double degrees : {-80.0, -120.0, -175.0}) {
+    const RollLineState state = only(strip(degrees));
+    EXPECT_NEAR(units::degrees(state.turn), degrees, 1);
+    EXPECT_FALSE(state.is_turned()) << degrees;
+    EXPECT_TRUE(state.stands()) << degrees;
+    EXPECT_NEAR(state.inwards_share, 1, 1e-9);
+    EXPECT_NE(turned_text(state).find("100 % inwards"), std::string::npos) << turned_text(state);
+  }
+  EXPECT_EQ(only(strip(120)).inwards_share, 0);
+}
+
+TEST(RollLineStates, a_leaf_that_hangs_over_its_own_edge_is_outside_of_the_cloth_that_it_lies_on) {
+  // Folded by 186 degrees about an edge that stands off, as a collar's leaf that follows the slope
+  // of the shoulders: by its direction it goes inwards.
+  Garment garment = strip(0);
+  for (std::size_t v = 0; v < garment.panels.pattern.size(); ++v) {
+    const Vec2& p = garment.panels.pattern[v];
+    const double beyond = p.y() - 0.03, slope = units::radians(6);
+    if (beyond > 0)
+      garment.position[garment.particle_of[v]] =
+          Vec3(p.x(), 0.03 - beyond * std::cos(slope), 0.006 - beyond * std::sin(slope));
+  }
+  EXPECT_GT(only(garment).turned_share, 0.9);
+}
+
 TEST(RollLineStates, a_line_that_is_turned_over_in_part_is_not_turned) {
   const Garment half = strip(170, 0.12);
   EXPECT_NEAR(only(half).turned_share, 0.4, 0.1);

@@ -91,6 +91,34 @@ TEST(RollLines, ACollarTurnedOverOnItsSeamStartsOutsideOfItsStandAndHangsDown) {
   }
 }
 
+TEST(RollLines, ACoarseMeshOfACollarHasRoomForALineInIt) {
+  std::string leaf = rectangle("collar", 44, 5);
+  leaf.insert(leaf.size() - 1, ", " + roll(R"([["M", 0, 1.5], ["L", 44, 1.5]])"));
+  const Pattern pattern = own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "collar", "panels": [)" +
+      rectangle("front", 44, 50) + "," + leaf + R"(], "seams": [
+      {"name": "neck", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "collar", "edge": "hem"}]}]})");
+  constexpr double USUAL = 0.048;
+  const auto length_along = [&](const PanelMesh& mesh) {
+    double sum = 0;
+    for (const auto& [a, b] :
+         edges_along(mesh, mesh.panels[1], mesh.source->panels[1].lines[0].path))
+      sum += (mesh.pattern[a] - mesh.pattern[b]).norm();
+    return sum;
+  };
+  EXPECT_EQ(length_along(mesh_pattern(pattern, USUAL, "t")), 0) << "all alike";
+  MeshLengths lengths{.usual = USUAL};
+  for (const Panel& panel : pattern.panels)
+    lengths.of_panel.push_back(edge_length_for_rolls(panel, USUAL));
+  EXPECT_EQ(lengths.of_panel[0], USUAL) << "no roll line";
+  EXPECT_NEAR(lengths.of_panel[1], 0.015, 0.001) << "as far as the line lies from the outline";
+  const PanelMesh mesh = mesh_pattern(pattern, lengths, "t");
+  EXPECT_GT(length_along(mesh), 0.8 * 0.44);
+  EXPECT_EQ(mesh.seams[0].a.size(), mesh.seams[0].b.size());
+  EXPECT_GT(mesh.seams[0].a.size(), 25u) << "the front is as fine where it is sewn to the collar";
+  EXPECT_LT(mesh.panels[0].n_vertices, 300) << "and coarse away from it";
+}
+
 TEST(RollLines, AreWrittenAndReadBack) {
   const Pattern pattern = collar_pattern(true);
   const Pattern again = own(pattern_json(pattern, "test").dump());

@@ -31,9 +31,11 @@ struct Boundary {
 /// @param file  for messages
 /// @param seam_h  the same along seams and darts, from where it grows along free edges; 0
 /// for h
+/// @param of_panel  #panels, m: edge lengths of the single panels, instead of h; a seam takes the
+/// shorter one of its two sides. Empty: h everywhere
 /// @throws Error INPUT where an outline is too small for its edge length to leave three
 /// vertices, or a run is sewn twice
 Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file,
-                         double seam_h = 0);
+                         double seam_h = 0, const std::vector<double>& of_panel = {});
 
 } // namespace sloper::pattern

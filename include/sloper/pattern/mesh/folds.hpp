@@ -40,6 +40,13 @@ struct Folding {
 /// @param pattern  the one that `mesh` was made from
 Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh);
 
+/// Edge length at which the mesh of a panel has room for its roll lines: edges along them, which
+/// the mesher leaves out near the outline, and two rows of triangles beyond them.
+/// @param usual  m, of the mesh   @return m, from an eighth of `usual` to `usual`, which it is
+/// for panels without roll lines and those that are turned whole. Cost: samples of lines times
+/// samples of outline
+double edge_length_for_rolls(const Panel& panel, double usual);
+
 /// Whether all of a panel is turned over, as a collar's leaf whose roll line is its seam.
 bool turned_whole(const Panel& panel);
 
