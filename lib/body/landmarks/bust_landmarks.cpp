@@ -104,6 +104,10 @@ void find_prominence(const Finder& f, int side, const Vec3& bust_point) {
     return;
   Landmark& landmark = f.body.landmarks[name];
   landmark.spread_m = std::max(landmark.spread_m, likely->spread_m);
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: between %.3f and %.3f m, %.0f mm (standard deviation)",
+                name.c_str(), likely->low, likely->high, 1000 * likely->spread_m);
+  f.explain(text);
   if (likely->spread_m < PROMINENCE_UNSURE * f.s)
     return;
   for (const double y : {likely->low, likely->high})
