@@ -47,16 +47,21 @@ bool tells_itself(const std::string& name) {
   return name == "crotch" || name == "abdomen_front";
 }
 
-/// A crotch that the skin shows may be in doubt from front to back alone: what is above it does not
-/// care.
-bool may_mislead(const std::string& name, const Landmark& landmark) {
-  return name != "crotch" || landmark.rule == "below_buttocks";
-}
-
 bool is_warned_of(const Body& body, const std::string& name) {
   const std::vector<Finding>& all = body.scan.findings;
   return std::any_of(all.begin(), all.end(), [&](const Finding& finding) {
     return finding.place == name && finding.severity == "warning";
+  });
+}
+
+/// A crotch that the skin shows may be in doubt from front to back alone: what is above it does not
+/// care, unless the rest of the body lets expect it elsewhere.
+bool may_mislead(const Body& body, const std::string& name) {
+  if (name != "crotch" || body.landmarks.at(name).rule == "below_buttocks")
+    return true;
+  const std::vector<Finding>& all = body.scan.findings;
+  return std::any_of(all.begin(), all.end(), [&](const Finding& finding) {
+    return finding.place == name && finding.id == "scan.landmark-unlikely"_id.text();
   });
 }
 
@@ -109,7 +114,7 @@ void doubt_dependents(Body& body, double strangeness) {
     const auto it = body.landmarks.find(rests.landmark);
     if (it == body.landmarks.end() || !body.has_landmark(rests.on))
       continue;
-    if (!is_warned_of(body, rests.on) || !may_mislead(rests.on, body.landmarks[rests.on]))
+    if (!is_warned_of(body, rests.on) || !may_mislead(body, rests.on))
       continue;
     it->second.confidence = std::min(it->second.confidence, body.landmarks[rests.on].confidence);
     if (!rests.has_warning || is_warned_of(body, rests.landmark))

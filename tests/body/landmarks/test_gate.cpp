@@ -112,6 +112,12 @@ TEST(Dependents, share_the_doubt_of_what_they_rest_on) {
   EXPECT_DOUBLE_EQ(body.landmarks["axilla_merge_l"].confidence, 0.4);
   EXPECT_FALSE(is_warned_of("axilla_merge_r"));
   EXPECT_DOUBLE_EQ(body.landmarks["axilla_merge_r"].confidence, 0.8);
+  put("hip_joint_l", 0.9, 0.6);
+  doubt_dependents(body, 0.8);
+  EXPECT_FALSE(is_warned_of("hip_joint_l")); // nothing doubts the crotch
+  body.scan.findings.push_back({"scan.landmark-unlikely"_id, "warning", "higher", "crotch"});
+  doubt_dependents(body, 0.8);
+  EXPECT_TRUE(is_warned_of("hip_joint_l"));
   doubt_dependents(body, 1.2);
   EXPECT_LT(body.landmarks["olecranon_l"].confidence, 0.5);
 }
