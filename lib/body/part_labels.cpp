@@ -19,26 +19,39 @@ constexpr double BORDER_REACH =
 /// tilted.
 constexpr double CROWN_BEFORE = 0.0216, CROWN_ABOVE = 0.1628;
 
-/// Above the border from the throat to under the skull. It tilts with the head, is an arch from
-/// side to side, and lies higher under a crown that is farther up or before the neck.
-bool is_head(const Finder& f, const Vec3& p) {
-  constexpr double BROADEST = 0.1, HEIGHT = 0.0406, STEEP = 0.941, ARCH = 9.0;
-  constexpr double WITH_CROWN_BEFORE = 0.35, WITH_CROWN_ABOVE = 0.68;
-  const Vec3 q = (p - f.at("neck_center")) / f.s;
-  if (std::abs(p.x()) >= BROADEST * f.s)
-    return false;
-  const Vec3 crown = f.has("head_tip") ? Vec3((f.at("head_tip") - f.at("neck_center")) / f.s)
-                                       : Vec3(0, CROWN_ABOVE, CROWN_BEFORE);
-  const double nods = crown.z() / crown.y() - CROWN_BEFORE / CROWN_ABOVE,
-               rolls = crown.x() / crown.y();
-  const double y = q.y() * std::cos(nods) + q.z() * std::sin(nods),
-               z = q.z() * std::cos(nods) - q.y() * std::sin(nods);
-  const double up = y * std::cos(rolls) + q.x() * std::sin(rolls),
-               aside = q.x() * std::cos(rolls) - y * std::sin(rolls);
-  return up + STEEP * z - ARCH * aside * aside >
-         HEIGHT + WITH_CROWN_BEFORE * (crown.z() - CROWN_BEFORE) +
-             WITH_CROWN_ABOVE * (crown.y() - CROWN_ABOVE);
-}
+/// The border from the throat to under the skull. It tilts with the head, is an arch from side to
+/// side, and lies higher under a crown that is farther up or before the neck.
+class HeadBorder {
+public:
+  /// @param neck middle of the neck @param crown m
+  HeadBorder(const Vec3& neck, const std::optional<Vec3>& crown, double stature)
+      : m_neck(neck), m_s(stature) {
+    const Vec3 at = crown ? Vec3((*crown - neck) / stature) : Vec3(0, CROWN_ABOVE, CROWN_BEFORE);
+    const double nods = at.z() / at.y() - CROWN_BEFORE / CROWN_ABOVE, rolls = at.x() / at.y();
+    m_cos_nods = std::cos(nods);
+    m_sin_nods = std::sin(nods);
+    m_cos_rolls = std::cos(rolls);
+    m_sin_rolls = std::sin(rolls);
+    m_height = HEIGHT + WITH_CROWN_BEFORE * (at.z() - CROWN_BEFORE) +
+               WITH_CROWN_ABOVE * (at.y() - CROWN_ABOVE);
+  }
+  bool is_below(const Vec3& p) const {
+    if (std::abs(p.x()) >= BROADEST * m_s)
+      return false;
+    const Vec3 q = (p - m_neck) / m_s;
+    const double y = q.y() * m_cos_nods + q.z() * m_sin_nods,
+                 z = q.z() * m_cos_nods - q.y() * m_sin_nods;
+    const double up = y * m_cos_rolls + q.x() * m_sin_rolls,
+                 aside = q.x() * m_cos_rolls - y * m_sin_rolls;
+    return up + STEEP * z - ARCH * aside * aside > m_height;
+  }
+
+private:
+  static constexpr double BROADEST = 0.1, HEIGHT = 0.0406, STEEP = 0.941, ARCH = 9.0;
+  static constexpr double WITH_CROWN_BEFORE = 0.35, WITH_CROWN_ABOVE = 0.68;
+  Vec3 m_neck;
+  double m_s, m_cos_nods, m_sin_nods, m_cos_rolls, m_sin_rolls, m_height;
+};
 
 /// Height of the groin at p, m: it rises from the crotch outwards, steeply to the hip joint, and
 /// higher in front than behind.
@@ -65,10 +78,13 @@ std::vector<Part> label_skin(const Finder& f) {
   std::vector<Part> part(skin.positions.size(), Part::TORSO);
   const double s = f.s;
   const double crotch = f.has("crotch") ? f.at("crotch").y() : 0.47 * s;
-  if (f.has("neck_center"))
+  if (f.has("neck_center")) {
+    const HeadBorder border(f.at("neck_center"),
+                            f.has("head_tip") ? std::optional(f.at("head_tip")) : std::nullopt, s);
     for (std::size_t v = 0; v < part.size(); ++v)
-      if (is_head(f, skin.positions[v]))
+      if (border.is_below(skin.positions[v]))
         part[v] = Part::HEAD;
+  }
   const double hip_x = f.has("hip_joint_l") ? std::abs(f.at("hip_joint_l").x()) : 0.06 * s;
   const double hip_z = f.has("hip_center") ? f.at("hip_center").z() : 0.0;
   for (std::size_t v = 0; v < part.size(); ++v) {
