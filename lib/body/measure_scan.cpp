@@ -127,10 +127,6 @@ private:
   std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
 };
 
-/// rad, back from the scanner's, half a degree: mean of the 174 of 384 fresh bodies in natural
-/// stances that got a vertical of their own; sd 0.006.
-constexpr double OWN_VERTICAL_LEANS = -0.0085;
-
 struct RuleInput {
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body, body frame
   /// Vertices and points spread over the scan's larger faces about the height of a crotch: a coarse
@@ -143,13 +139,19 @@ struct RuleInput {
   const Corrections& corrections;
 };
 
-/// Of `spread` over the body (scan units) what lies about the height of a crotch, body frame.
-std::vector<Vec3> points_at_seat(const std::vector<Vec3>& spread, const CanonicalFrame& frame) {
+/// Points of the scan in the body frame, m.
+std::vector<Vec3> points_in(const CanonicalFrame& frame, std::vector<Vec3> points) {
+  for (Vec3& p : points)
+    p = transform(frame.scan_to_body, p);
+  return points;
+}
+
+/// Of points spread over the body what lies about the height of a crotch.
+std::vector<Vec3> points_at_seat(const std::vector<Vec3>& spread, double stature) {
   constexpr double LOW = 0.36, HIGH = 0.6; // of stature
   std::vector<Vec3> points;
-  for (const Vec3& q : spread)
-    if (const Vec3 p = transform(frame.scan_to_body, q);
-        p.y() > LOW * frame.stature_m && p.y() < HIGH * frame.stature_m)
+  for (const Vec3& p : spread)
+    if (p.y() > LOW * stature && p.y() < HIGH * stature)
       points.push_back(p);
   return points;
 }
@@ -161,7 +163,7 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0, in.up);
   if (phases)
     phases->done("slicing");
-  const bool crotch_moved = doubt_crotch(levels, in.seat_points, in.rules, in.rebuilt, in.whole,
+  const bool crotch_moved = doubt_crotch(levels, {in.seat_points, in.rules, in.rebuilt, in.whole},
                                          body.scan.findings, trail);
   const EdgeGraph graph(body.skin);
   const std::array<ArmTrace, 2> arms =
@@ -335,7 +337,6 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor))
     settle_vertical(scan, shape, sorted, frame, !upright);
   const bool is_own_vertical = upright || frame.scan_to_body != as_in_file;
-  const Vec3 up = Vec3(0, 1, is_own_vertical ? OWN_VERTICAL_LEANS : 0).normalized();
   frame.findings.insert(frame.findings.end(), loose.findings.begin(), loose.findings.end());
   body.scan = {io::file_name(file),
                sha256,
@@ -362,7 +363,10 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (sorted.is_body[v])
       scan_points.push_back(positions[v]);
-  const std::vector<Vec3> seat_points = points_at_seat(shape, frame);
+  const std::vector<Vec3> shape_points = points_in(frame, shape);
+  const double lean = is_own_vertical ? likeliest_lean(shape_points, s) : 0;
+  const Vec3 up = Vec3(0, std::cos(lean), std::sin(lean));
+  const std::vector<Vec3> seat_points = points_at_seat(shape_points, s);
   const RuleInput input{scan_points, seat_points, skin.rebuilt,  skin.whole,
                         s,           up,          options.rules, *options.corrections};
   reporter.progress("rules", -1);

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 using namespace sloper;
 using namespace sloper::body;
@@ -109,5 +110,38 @@ TEST(SharedAccuracy, tells_the_average_figures_of_another_source_apart) {
     const Body body = test::measure(scan.mesh).body;
     EXPECT_EQ(body.body_class.rfind(*sex == 'f' ? "female figure" : "male figure", 0), 0u)
         << body.body_class;
+    for (const Finding& finding : body.scan.findings)
+      EXPECT_FALSE(finding.place == "crotch" && finding.severity == "warning") << finding.what;
   }
+}
+
+/// Borders by the modeller's parts: they tilt with the head, rise outside of the hip joint and bend
+/// around the shoulder.
+TEST(SharedAccuracy, of_the_parts_of_plain_bodies) {
+  const char* shared = std::getenv("SLOPER_SHARED");
+  const std::filesystem::path folder =
+      std::filesystem::path(shared ? shared : "") / "data/bodies/plain";
+  std::ifstream file(folder / "vertex_parts.txt");
+  if (!shared || !file)
+    GTEST_SKIP() << "SLOPER_SHARED names no folder with data/bodies/plain/vertex_parts.txt";
+  std::vector<int> parts;
+  for (std::string line; std::getline(file, line);)
+    if (!line.empty() && line.front() != '#')
+      parts.push_back(std::stoi(line));
+  double sum = 0;
+  int bodies = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".obj")
+      continue;
+    const MeasuredScan measured = test::measure(io::read_scan(entry.path().string()).mesh);
+    if (measured.vertex_part.size() != parts.size())
+      continue;
+    int agree = 0;
+    for (std::size_t v = 0; v < parts.size(); ++v)
+      agree += static_cast<int>(measured.vertex_part[v]) == parts[v];
+    sum += static_cast<double>(agree) / static_cast<double>(parts.size());
+    ++bodies;
+  }
+  ASSERT_GT(bodies, 0);
+  EXPECT_GT(sum / bodies, 0.993);
 }

@@ -64,6 +64,37 @@ std::optional<Lean> lean_of_soles(const std::vector<Vec3>& points, double statur
   return Lean{-std::atan(plane->y()), -std::atan(plane->x())};
 }
 
+/// A part of the body, by its height, whose place before the calves tells of the vertical.
+struct Witness {
+  double low, high;      ///< of stature
+  double aside;          ///< of stature beside the mid-plane: the chest without its arms
+  bool is_front;         ///< its front end, no middle
+  double mean, sd;       ///< of stature before the calves' middle
+  double degrees_per_cm; ///< per hundredth of the stature that it is farther forward
+};
+constexpr Witness WITNESSES[] = {{0.92, 1.01, 0.2, false, 0.0256, 0.0099, -0.1774},
+                                 {0.68, 0.76, 0.08, false, 0.0098, 0.0077, 0.2414},
+                                 {0, 0.03, 0.3, true, 0.1119, 0.0085, -0.1913}};
+constexpr Witness CALVES = {0.12, 0.25, 0.3, false, 0, 1, 0};
+constexpr double USUAL_LEAN = -0.4466;   ///< degrees
+constexpr double WITNESSES_BEYOND = 2.5; ///< standard deviations: farther off counts no more
+
+/// Middle, or front end, of a part of the body, of stature; nothing where it is not there.
+std::optional<double> depth_of(const Witness& part, const std::vector<Vec3>& points,
+                               double stature) {
+  double back = 1e300, front = -1e300;
+  for (const Vec3& p : points) {
+    const double h = p.y() / stature;
+    if (h <= part.low || h >= part.high || std::abs(p.x()) >= part.aside * stature)
+      continue;
+    back = std::min(back, p.z());
+    front = std::max(front, p.z());
+  }
+  if (back > front)
+    return std::nullopt;
+  return (part.is_front ? front : 0.5 * (back + front)) / stature;
+}
+
 /// Half of what `other` says, less the further it is off.
 double drawn(double own, double other) {
   const double off = (other - own) / units::radians(FAR_APART);
@@ -168,6 +199,18 @@ void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points,
   }
   sorted = std::move(by_body);
   frame = std::move(settled);
+}
+
+double likeliest_lean(const std::vector<Vec3>& points, double stature) {
+  double degrees = USUAL_LEAN;
+  const auto calves = depth_of(CALVES, points, stature);
+  for (const Witness& witness : WITNESSES)
+    if (const auto depth = depth_of(witness, points, stature); depth && calves) {
+      const double off = (*depth - *calves - witness.mean) / witness.sd;
+      degrees += witness.degrees_per_cm * 100 * witness.sd *
+                 std::clamp(off, -WITNESSES_BEYOND, WITNESSES_BEYOND);
+    }
+  return units::radians(degrees);
 }
 
 } // namespace sloper::body

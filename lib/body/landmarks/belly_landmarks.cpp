@@ -16,8 +16,8 @@ constexpr double SEAT_DIFFERENCE_M = 0.005; // people's sides of the seat differ
 /// bodies in natural and mixed stances 37 are warned of: 12 of the 13 that are off by more than 40
 /// mm, and 19 that are right within 15 mm.
 void tell_flat_belly(const Finder& f, Span heights, bool is_flat) {
-  constexpr double WAIST_SD = 0.0048;                     // of stature
-  constexpr double OWN_LEAN_SD = 0.006, LEAN_SD = 0.0025; // rad, of the body's own, of the file's
+  constexpr double WAIST_SD = 0.0048;                      // of stature
+  constexpr double OWN_LEAN_SD = 0.0033, LEAN_SD = 0.0025; // rad, of the body's own, of the file's
   constexpr double TOLD = 0.0145; // of stature: root mean square distance of the other places
   constexpr double DOUBT = 0.5;   // of the confidence
   constexpr double ABOVE_CROTCH = 0.006; // of stature

@@ -33,14 +33,16 @@ Span chest_half(const Finder& f, int side) {
 }
 
 /// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be:
-/// near the foremost skin of its side.
-bool is_nipple_pair(const Finder& f) {
+/// near the foremost skin of its side, and about the height that the rest of the body lets expect.
+bool is_nipple_pair(const Finder& f, double expected) {
   const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
   if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump"))
     return false;
   if (std::abs(l->p.y() - r->p.y()) >= f.number("bust.bumps_aslant") * f.s)
     return false;
   if (std::abs(l->p.x() + r->p.x()) >= f.number("bust.bumps_off_middle") * f.s)
+    return false;
+  if (std::abs(0.5 * (l->p.y() + r->p.y()) - expected) > f.number("bust.bump_far") * f.s)
     return false;
   const double near = f.number("bust.bump_near") * f.s;
   for (int side = 0; side < 2; ++side) {
@@ -104,6 +106,10 @@ void find_prominence(const Finder& f, int side, const Vec3& bust_point) {
     return;
   Landmark& landmark = f.body.landmarks[name];
   landmark.spread_m = std::max(landmark.spread_m, likely->spread_m);
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: between %.3f and %.3f m, %.0f mm (standard deviation)",
+                name.c_str(), likely->low, likely->high, 1000 * likely->spread_m);
+  f.explain(text);
   if (likely->spread_m < PROMINENCE_UNSURE * f.s)
     return;
   for (const double y : {likely->low, likely->high})
@@ -152,7 +158,7 @@ void find_bust(const Finder& f, double pit) {
       "bust_point", "bust_point",
       {{"bump_of_chest",
         [&]() -> Found {
-          if (!is_nipple_pair(f))
+          if (!is_nipple_pair(f, expected))
             return std::nullopt;
           BothSides both;
           for (int side = 0; side < 2; ++side) {

@@ -35,11 +35,11 @@ std::optional<double> buttock_level(const LevelStack& levels) {
 
 } // namespace
 
-bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules,
-                  bool rebuilt, bool whole, std::vector<Finding>& findings,
-                  std::vector<std::string>& trail) {
+bool doubt_crotch(LevelStack& levels, const CrotchEvidence& evidence,
+                  std::vector<Finding>& findings, std::vector<std::string>& trail) {
   if (!levels.crotch())
     return false;
+  const auto& [scan_points, rules, rebuilt, whole] = evidence;
   // figure and stance are not known yet: of the tree's conditions only the skin's counts here
   std::vector<std::string> order;
   for (const RuleChoice& rule : rules.order("crotch"))

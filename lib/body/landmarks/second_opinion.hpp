@@ -8,7 +8,8 @@ namespace sloper::body {
 /// Compares the height y of each landmark with its expected height e (Corrections::expected, of
 /// standard deviation d): their agreement exp(-((y - e) / d)^2 / 2 / 4) is a factor of the
 /// confidence, and beyond 4.5 d, of a rebuilt skin 3 d, the landmark is named in the findings, with
-/// the other height as an alternative. Bodies unlike those learned from are not judged.
+/// the other height as an alternative. Bodies unlike those learned from are not judged, and
+/// of those that are only a little like them not the crotch that the skin shows.
 /// @param features of the same body
 /// @param rebuilt the skin is not the scan's own
 /// @param trail what each of the two said, a line a landmark that is judged

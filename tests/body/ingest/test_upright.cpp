@@ -4,6 +4,7 @@
 #include <body/ingest/upright.hpp>
 #include <body/ingest/vertical.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/units.hpp>
 #include <sloper/geometry/rotation.hpp>
 
 using namespace sloper;
@@ -20,6 +21,30 @@ TEST(RestingPlane, is_that_of_three_feet_under_the_place) {
   ASSERT_TRUE(plane);
   EXPECT_NEAR((*plane - Vec3(0.1, -0.2, 1)).norm(), 0, 1e-9);
   EXPECT_FALSE(resting_plane({Vec3::Zero(), Vec3::UnitX()}, Vec2::Zero()));
+}
+
+/// Calves, head, chest and toes as small crosses, as far before the calves as is usual and
+/// `farther`, m, of a body of 1 m.
+TEST(LikeliestLean, is_told_by_head_chest_and_toes_before_the_calves) {
+  auto lean = [](double head, double chest, double toes) {
+    std::vector<Vec3> points;
+    auto add = [&](double y, double low, double high) {
+      points.emplace_back(0, y, low);
+      points.emplace_back(0, y, high);
+    };
+    add(0.2, -0.03, 0.03);
+    add(0.95, 0.0256 + head - 0.05, 0.0256 + head + 0.05);
+    add(0.72, 0.0098 + chest - 0.05, 0.0098 + chest + 0.05);
+    add(0.01, -0.05, 0.1119 + toes);
+    points.emplace_back(0.3, 0.72, 1); // a hand before the chest
+    return units::degrees(likeliest_lean(points, 1));
+  };
+  EXPECT_NEAR(lean(0, 0, 0), -0.447, 1e-3);
+  EXPECT_NEAR(lean(0.01, 0, 0), -0.447 - 0.177, 1e-3); // a head that hangs forward
+  EXPECT_NEAR(lean(0, 0.01, 0), -0.447 + 0.241, 1e-3);
+  EXPECT_NEAR(lean(0, 0, 0.01), -0.447 - 0.191, 1e-3);
+  EXPECT_LT(std::abs(lean(0.3, -0.3, 0.3)), 2); // what is not usual counts no more
+  EXPECT_NEAR(units::degrees(likeliest_lean({}, 1)), -0.447, 1e-3);
 }
 
 TEST(Upright, who_stands_or_leans_a_little_is_left_so) {

@@ -83,6 +83,10 @@ TEST(Dependents, share_the_doubt_of_what_they_rest_on) {
   };
   put("neck_back", 1.45, 0.2);
   put("neck_side_l", 1.46, 0.5);
+  put("neck_center", 1.45, 0.5);
+  put("crotch", 0.8, 0.9);
+  body.landmarks["crotch"].spread_m =
+      0.06; // it is in doubt from front to back, which is told apart
   put("elbow_l", 1.1, 0.6);
   put("olecranon_l", 1.1, 0.5);
   put("axilla_l", 1.28, 0.7);
@@ -97,13 +101,23 @@ TEST(Dependents, share_the_doubt_of_what_they_rest_on) {
         return true;
     return false;
   };
-  EXPECT_TRUE(is_warned_of("neck_side_l"));
+  EXPECT_TRUE(is_warned_of("neck_center"));
+  EXPECT_DOUBLE_EQ(body.landmarks["neck_center"].confidence, 0.2);
+  // most of them are right all the same
+  EXPECT_FALSE(is_warned_of("neck_side_l"));
   EXPECT_DOUBLE_EQ(body.landmarks["neck_side_l"].confidence, 0.2);
+  EXPECT_FALSE(is_warned_of("crotch"));
   EXPECT_FALSE(is_warned_of("olecranon_l"));
   EXPECT_TRUE(is_warned_of("axilla_merge_l"));
   EXPECT_DOUBLE_EQ(body.landmarks["axilla_merge_l"].confidence, 0.4);
   EXPECT_FALSE(is_warned_of("axilla_merge_r"));
   EXPECT_DOUBLE_EQ(body.landmarks["axilla_merge_r"].confidence, 0.8);
+  put("hip_joint_l", 0.9, 0.6);
+  doubt_dependents(body, 0.8);
+  EXPECT_FALSE(is_warned_of("hip_joint_l")); // nothing doubts the crotch
+  body.scan.findings.push_back({"scan.landmark-unlikely"_id, "warning", "higher", "crotch"});
+  doubt_dependents(body, 0.8);
+  EXPECT_TRUE(is_warned_of("hip_joint_l"));
   doubt_dependents(body, 1.2);
   EXPECT_LT(body.landmarks["olecranon_l"].confidence, 0.5);
 }

@@ -36,7 +36,7 @@ std::string left_out(const FitReport& report, const std::string& name) {
 } // namespace
 
 TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
-  const Dressed d = dressed(measured("f-165-a"), skin_shirt(measured("f-165-a"), 0.01));
+  const Dressed d = dressed(measured("m-178-a"), skin_shirt(measured("m-178-a"), 0.01));
   for (const char* name : {"waist_semantic", "bust", "upper_arm_l"}) {
     const FitRow* r = row(d.report, name);
     ASSERT_TRUE(r) << left_out(d.report, name);
