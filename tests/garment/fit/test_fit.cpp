@@ -36,21 +36,26 @@ std::string left_out(const FitReport& report, const std::string& name) {
 } // namespace
 
 TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
-  const Dressed d = dressed(measured("m-178-a"), skin_shirt(measured("m-178-a"), 0.01));
-  for (const char* name : {"waist_semantic", "bust", "upper_arm_l"}) {
-    const FitRow* r = row(d.report, name);
-    ASSERT_TRUE(r) << left_out(d.report, name);
-    // A line at constant distance from a convex one is longer by 2 pi times it; the skin itself is
-    // not quite convex.
-    EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.02) << name;
-    EXPECT_NEAR(r->gap_p50_m, 0.01, 0.002) << name;
-    EXPECT_NEAR(r->strain_p99, 0, 1e-6) << name;
-    EXPECT_NEAR(r->pressure_p95_pa, 0, 1) << name;
-    EXPECT_GE(r->ease_uncertainty_m, 0);
-    EXPECT_LT(r->ease_uncertainty_m, 0.03) << name;
+  for (const char* figure : {"f-165-a", "m-178-a"}) {
+    SCOPED_TRACE(figure);
+    const Dressed d = dressed(measured(figure), skin_shirt(measured(figure), 0.01));
+    for (const char* name : {"waist_semantic", "bust", "upper_arm_l"}) {
+      const FitRow* r = row(d.report, name);
+      ASSERT_TRUE(r) << left_out(d.report, name);
+      // A line at constant distance from a convex one is longer by 2 pi times it; the skin itself
+      // is not quite convex.
+      EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.02) << name;
+      EXPECT_NEAR(r->gap_p50_m, 0.01, 0.002) << name;
+      EXPECT_NEAR(r->strain_p99, 0, 1e-6) << name;
+      EXPECT_NEAR(r->pressure_p95_pa, 0, 1) << name;
+      EXPECT_GE(r->ease_uncertainty_m, 0);
+      // The level of a woman's bust is known less well than that of a man's.
+      const bool is_unsure = std::string(name) == "bust" && figure[0] == 'f';
+      EXPECT_LT(r->ease_uncertainty_m, is_unsure ? 0.035 : 0.03) << name;
+    }
+    EXPECT_EQ(d.report.garment_class, "top");
+    EXPECT_TRUE(d.report.fits) << d.report.reason;
   }
-  EXPECT_EQ(d.report.garment_class, "top");
-  EXPECT_TRUE(d.report.fits) << d.report.reason;
 }
 
 TEST(fit, what_another_drape_changes_adds_to_the_uncertainty) {
