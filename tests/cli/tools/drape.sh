@@ -185,7 +185,7 @@ case_what_belongs_to_another_body_is_told() {
   says "the body was written without its skin"
 }
 
-# A shirt 94 cm wide on a bust of 96 and a hip of 98 cm: pinched arm pits hid from the solver that its front bore what its back could share.
+# A shirt 94 cm wide on a bust of 96 and a hip of 98 cm: pinched arm pits hid from the solver that its front bore what its back could share. Ten drapes from starts 1 um apart lie between 0.0526 and 0.0587.
 case_strain_that_sewing_left_evens_out_in_a_tight_shirt() {
   local shared=${SLOPER_SHARED:-}/data p99
   [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
@@ -194,7 +194,7 @@ case_strain_that_sewing_left_evens_out_in_a_tight_shirt() {
   run 0 "$folder/pattern-mesh" -q --body f.json -o p.json "$shared/patterns/garmentcode/longsleeve_shirt_f_smpl_average_A40_specification.json"
   run 0 "$program" -q --body f.json --panels p.json --report report.json -o shirt.json
   p99=$(python3 -c 'import json; print(round(1e4 * json.load(open("report.json"))["quality"]["strain"]["weft"]["p99"]))')
-  ((p99 < 570)) || fail "1 % of the weft is stretched by more than 0.0$p99; evened out it is 0.0506, and was 0.0630"
+  ((p99 < 600)) || fail "1 % of the weft is stretched by more than 0.0$p99; evened out it is 0.053 to 0.059, and was 0.063"
 }
 
 # The lapels and the collar of the sample jacket start turned over along their roll lines, and rest so.

@@ -49,7 +49,7 @@ case_a_shirt_made_over_for_a_body_that_it_is_too_tight_on_is_let_out() {
 case_a_collar_that_is_placed_in_a_chin_is_brought_out() {
   dress_from_shared plain/body_006 plain/body_004 sewing/dxf/shirt.dxf --accuracy draft --material denim
   run 4 "$program" --accuracy draft --garment worn.json --to to.json --report report.json -o there.json
-  says "on the hand"
+  says "does not fit"
   python3 -c 'import json
 report = json.load(open("report.json"))
 assert report["placement"]["placed"]["faces_through_body"] > 100, "the collar was not in the chin"
