@@ -65,6 +65,21 @@ case_a_skirt_too_wide_slides_to_where_the_hip_bears_it() {
   ((slip > 90 && slip < 140)) || fail "it slid $slip mm; solved finely, 118"
 }
 
+# keep-fit moves the mesh off the lines that its pattern drew, and the report had no roll line.
+case_a_collar_that_is_made_over_is_judged_by_its_roll_line() {
+  local makers folder=${program%/*}
+  makers=$(dirname "$folder")/samples
+  cp "$data"/a.body.{json,obj} .
+  echo '{"format": "scene", "version": 1, "roll_lines": [{"panel": "collar", "from": [0.06, 0.06], "via": [[0.5, 0.62]], "to": [0.94, 0.06]}]}' > roll.json
+  run 0 "$makers/make-pattern" -q shirt --body a.body.json -o s.pattern.json
+  run 0 "$folder/pattern-mesh" -q --body a.body.json --edge-length 0.02 -o s.panels.json s.pattern.json
+  run 0 "$folder/drape" -q --accuracy draft --scene roll.json --body a.body.json --panels s.panels.json -o s.json
+  run "0|4" "$program" --accuracy draft --mode keep-fit --garment s.json --to "$data/b.body.json" --report report.json -o there.json
+  python3 -c 'import json
+(line,) = json.load(open("report.json"))["roll_lines"]
+assert line["turned"] and line["turned_share"] > 0.8, line' || fail "the collar stands, or nothing is said of it"
+}
+
 # A mesh without a pattern comes out with the lines that it came with, but for coordinates; its materials go along.
 case_a_mesh_without_a_pattern_comes_out_as_it_came_in() {
   cp "$data"/a.body.{json,obj} .
