@@ -43,7 +43,10 @@ std::string limb_name(const std::string& frame) {
 
 std::optional<EaseAtGirth> ease_of(const Garment& placed, const std::vector<Vec3>& source,
                                    const FitPlace& place) {
-  EaseAtGirth ease{.name = place.name, .limb = limb_of_girth(place), .axis = place.normal};
+  EaseAtGirth ease{.name = place.name,
+                   .limb = limb_of_girth(place),
+                   .center = place.center,
+                   .axis = place.normal};
   const auto first_body =
       placed.body_girths_m.find((place.kind == "level" ? "level:" : "") + place.name);
   if (ease.limb.empty() || first_body == placed.body_girths_m.end())
@@ -55,7 +58,6 @@ std::optional<EaseAtGirth> ease_of(const Garment& placed, const std::vector<Vec3
   ease.ease_m = line->elsewhere - first_body->second;
   if (ease.limb == "torso" && ease.ease_m > CLOSE * first_body->second)
     return std::nullopt;
-  ease.along_m = place.center.dot(place.normal);
   ease.wanted_m = place.body_m + ease.ease_m;
   ease.has_m = line->lying;
   return ease;
@@ -64,27 +66,17 @@ std::optional<EaseAtGirth> ease_of(const Garment& placed, const std::vector<Vec3
 /// Logarithms along one limb.
 class AlongLimb {
 public:
-  void add(const EaseAtGirth& girth) {
-    m_axis = girth.axis;
-    const double log = std::clamp(std::log(girth.wanted_m / girth.has_m), -MOST, MOST);
-    m_points.push_back({girth.along_m, log, 1});
-  }
-
-  /// After the last girth was added.
-  void finish() {
+  explicit AlongLimb(const std::vector<EaseAtGirth>& girths) : m_axis(girths.front().axis) {
+    const Vec3 chord = girths.back().center - girths.front().center;
+    if (chord.norm() > ONE_PLACE) // a bent arm has an axis at each girth
+      m_axis = chord.normalized();
+    for (const EaseAtGirth& girth : girths) {
+      const double log = std::clamp(std::log(girth.wanted_m / girth.has_m), -MOST, MOST);
+      m_points.push_back({girth.center.dot(m_axis), log, 1});
+    }
     std::sort(m_points.begin(), m_points.end(),
               [](const Point& a, const Point& b) { return a.along < b.along; });
-    std::vector<Point> merged;
-    for (const Point& p : m_points) {
-      if (merged.empty() || p.along - merged.back().along > ONE_PLACE) {
-        merged.push_back(p);
-        continue;
-      }
-      Point& last = merged.back();
-      last.log = (last.count * last.log + p.log) / (last.count + 1);
-      ++last.count;
-    }
-    m_points = std::move(merged);
+    merge_near_ones();
   }
 
   const Vec3& axis() const { return m_axis; }
@@ -106,7 +98,22 @@ private:
     double along, log;
     int count;
   };
-  Vec3 m_axis = Vec3::UnitY();
+
+  void merge_near_ones() {
+    std::vector<Point> merged;
+    for (const Point& p : m_points) {
+      if (merged.empty() || p.along - merged.back().along > ONE_PLACE) {
+        merged.push_back(p);
+        continue;
+      }
+      Point& last = merged.back();
+      last.log = (last.count * last.log + p.log) / (last.count + 1);
+      ++last.count;
+    }
+    m_points = std::move(merged);
+  }
+
+  Vec3 m_axis;
   std::vector<Point> m_points;
 };
 
@@ -145,15 +152,16 @@ std::vector<EaseAtGirth> ease_at_girths(const Garment& placed, const std::vector
 
 std::vector<Vec2> lengthening_for_ease(const Garment& placed,
                                        const std::vector<EaseAtGirth>& girths) {
-  std::map<std::string, AlongLimb> limbs;
+  std::map<std::string, std::vector<EaseAtGirth>> of_arm;
   for (const EaseAtGirth& girth : girths)
     if (girth.limb.rfind("arm", 0) == 0)
-      limbs[girth.limb].add(girth);
+      of_arm[girth.limb].push_back(girth);
+  std::map<std::string, AlongLimb> limbs;
+  for (const auto& [name, list] : of_arm)
+    limbs.emplace(name, list);
   std::vector<Vec2> longer(placed.panels.triangles.size(), Vec2::Zero());
   if (limbs.empty())
     return longer;
-  for (auto& [name, limb] : limbs)
-    limb.finish();
   std::vector<const AlongLimb*> limb_of_frame;
   for (const std::string& frame : placed.bind.frames) {
     const auto limb = limbs.find(limb_name(frame));

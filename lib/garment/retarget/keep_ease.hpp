@@ -10,8 +10,8 @@ namespace sloper::garment {
 struct EaseAtGirth {
   std::string name;    ///< of the girth, as in fit.json(5)
   std::string limb;    ///< "torso", "leg_l", "arm_r"
+  Vec3 center;         ///< m, of the girth, in the body frame
   Vec3 axis;           ///< unit, square to the girth
-  double along_m = 0;  ///< of its plane along the axis, in the body frame
   double ease_m = 0;   ///< garment less body, on the first body
   double wanted_m = 0; ///< garment girth that keeps the ease
   double has_m = 0;    ///< garment girth, by where its particles lie
@@ -28,8 +28,9 @@ std::vector<EaseAtGirth> ease_at_girths(const Garment& placed, const std::vector
                                         const body::Body& to);
 
 /// What regrade() is to lengthen threads of sleeves by: the logarithm of wanted over present girth,
-/// linear between girths of an arm and constant beyond them; each thread takes the share in which
-/// it runs around the arm. Trouser legs and the trunk are left alone (docs/decisions/keep-fit.md).
+/// linear between girths of an arm, along the line from the first to the last, and constant beyond
+/// them; each thread takes the share in which it runs around that line. Trouser legs and the trunk
+/// are left alone (docs/decisions/keep-fit.md).
 /// @return  #F: of weft and warp
 std::vector<Vec2> lengthening_for_ease(const Garment& placed,
                                        const std::vector<EaseAtGirth>& girths);

@@ -29,8 +29,8 @@ Garment square_on(const std::string& frame) {
 EaseAtGirth girth(const std::string& limb, double along, double wanted, double has) {
   return {.name = "girth",
           .limb = limb,
+          .center = Vec3(0, along, 0),
           .axis = Vec3::UnitY(),
-          .along_m = along,
           .ease_m = 0,
           .wanted_m = wanted,
           .has_m = has};
@@ -55,6 +55,14 @@ TEST(KeptEase, is_linear_between_girths_and_leaves_other_limbs_alone) {
   // Mean height of the first triangle's corners is 0.533 m: 0.083 of 0.2 m from the lower girth.
   EXPECT_NEAR(longer[0].x(), std::log(1.1) * (1 - 0.25 / 3 / 0.2), 1e-12);
   EXPECT_EQ(lengthening_for_ease(square_on("forearm_l"), girths)[0], Vec2(0, 0));
+}
+
+TEST(KeptEase, of_a_bent_arm_runs_from_girth_to_girth) {
+  EaseAtGirth upper = girth("arm_l", 0.4, 0.55, 0.5), wrist = girth("arm_l", 0.7, 0.5, 0.5);
+  wrist.axis = Vec3(0, 0.5, std::sqrt(0.75)); // the forearm turns off by 60 degrees
+  const auto longer = lengthening_for_ease(square_on("forearm_l"), {upper, wrist});
+  // Mean height of the first triangle's corners is 0.533 m, of 0.4 to 0.7.
+  EXPECT_NEAR(longer[0].x(), std::log(1.1) * (1 - (0.4 / 3) / 0.3), 1e-12);
 }
 
 TEST(KeptEase, that_changed_is_told_where_it_is_more_than_its_uncertainty) {
