@@ -226,6 +226,7 @@ void Aggregation::build(const LinearSystem& system) {
     finest = to_float(system.matrix);
   m_levels.clear();
   m_levels.emplace_back();
+  m_levels.back().a = std::move(finest);
   auto& [a, p, pt, ap] = m_build;
   expand(system.matrix, a);
   for (const ContactElement& e :
@@ -249,9 +250,10 @@ void Aggregation::build(const LinearSystem& system) {
     });
     for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d})
       v->assign(a.rows, Float4::all(0));
-    fine.a = m_levels.size() == 1 ? std::move(finest) : to_float(a);
     if (m_levels.size() == 1)
       copy_finest(system); // which has the contacts apart
+    else
+      fine.a = to_float(a);
     if (a.rows <= COARSEST_ROWS || m_levels.size() > 8)
       break;
     estimate_lambda(m_levels.size() - 1, 8);
