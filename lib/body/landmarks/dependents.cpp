@@ -11,7 +11,7 @@ struct Rests {
   const char *landmark, *on;
   bool has_warning; ///< of its own
 };
-/// None have those of which more than six of ten were right within 15 mm, on 704 bodies.
+/// No warning where it named a right place, within 15 mm, in over six of ten cases (704 bodies).
 constexpr Rests RESTS[] = {{"bust_prominent_l", "bust_point_l", true},
                            {"bust_prominent_r", "bust_point_r", true},
                            {"neck_side_l", "neck_back", false},
@@ -41,8 +41,8 @@ constexpr double UNSTEADY = 0.023;
 /// Of the same landmarks 14 had a confidence below; 2 were off by more than 25 mm, 9 by 15 mm.
 constexpr double HARDLY_BELIEVED = 0.15;
 
-/// Places whose own rules tell where they are ambiguous. Of 26 that moved in 704 bodies, and of
-/// which those rules told nothing, one was off by more than 15 mm.
+/// Places whose own rules say where they are ambiguous. Of 26 that moved in 704 bodies, and of
+/// which these rules said nothing, one was off by more than 15 mm.
 bool tells_itself(const std::string& name) {
   return name == "crotch" || name == "abdomen_front";
 }

@@ -15,7 +15,7 @@ constexpr double NECK_END = 0.067,
 constexpr double OVER = 0.026;    ///< the slope is that of a chord this long across
 constexpr double SLOPE_STEP = 0.001;
 constexpr double UNDER_HEAD = 0.9, OVER_CHEST = 0.6;
-/// Apart, the two ways are 0.007 (sd) of the stature on 186 shoulders of 104 fresh bodies. Of 704
+/// The two estimates differ by 0.007 of stature (sd) on 186 shoulders of 104 fresh bodies. Of 704
 /// bodies 42 shoulders are 0.015 to 0.023 apart under a hanging arm, 38 of them right within 15 mm;
 /// of 15 that are farther apart seven.
 constexpr double SLOPE_UNSURE = 0.02, SLOPE_TOLD = 0.023;

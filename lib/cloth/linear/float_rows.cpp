@@ -340,8 +340,8 @@ SLOPER_WIDE void add_to(double* sum, __m256d v) {
   _mm256_store_pd(sum, _mm256_add_pd(_mm256_load_pd(sum), v));
 }
 
-/// Likewise, the same bits: Eigen adds the products of the first two rows from the left, those of
-/// the third from the right.
+/// Gives the bits that Eigen gives: it adds the products of the first two rows from the left, and
+/// the products of the third from the right.
 SLOPER_WIDE void add_products_wide(const Mat3& a, const Mat3* b, const std::vector<int>& at,
                                    std::vector<PaddedBlock>& sum) {
   if (is_isotropic(a)) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The ease that keep-fit keeps: by how much close girths of a garment exceed those of its body.
+/// The ease that keep-fit keeps: by how much a garment exceeds its body at close girths.
 #include <sloper/body/body.hpp>
 #include <sloper/garment/fit/fit_report.hpp>
 #include <sloper/garment/garment.hpp>
@@ -30,7 +30,7 @@ std::vector<EaseAtGirth> ease_at_girths(const Garment& placed, const std::vector
 /// What regrade() is to lengthen threads of sleeves by: the logarithm of wanted over present girth,
 /// linear between girths of an arm, along the line from the first to the last, and constant beyond
 /// them; each thread takes the share in which it runs around that line. Trouser legs and the trunk
-/// are left alone (docs/decisions/keep-fit.md).
+/// are left alone (docs/decisions/keep-fit.md). @param placed, girths  of ease_at_girths()
 /// @return  #F: of weft and warp
 std::vector<Vec2> lengthening_for_ease(const Garment& placed,
                                        const std::vector<EaseAtGirth>& girths);

@@ -5,7 +5,7 @@
 namespace sloper::pattern {
 
 /// Sews pieces whose two upright sides are all alike into a ring, in place of guesses between such
-/// sides that are not certain: which two of ten gores are neighbours is told by no pair. They stand
+/// sides that are not certain: no pair says which two of ten gores are neighbours. They stand
 /// in the order in which their tops were guessed to the rim above; where one is not guessed, a gore
 /// that is left and fits goes there; without a rim above, in the order of the file. Nothing is done
 /// where a certain seam, or a likely one to another piece, takes such a side, and where the pieces

@@ -123,7 +123,7 @@ FitPolicy read_fit_policy(const std::string& path);
 
 /// Warnings of a policy document. A limit of more than 3 and less than 1000 is probably meant in
 /// per cent. A fabric whose name is almost that of a preset or of a material of the garment is
-/// probably misspelt; other names are those of fabrics of other garments.
+/// probably misspelt; other names belong to fabrics of other garments.
 /// @param path  of the document, for the text
 std::vector<Message> policy_doubts(const FitPolicy& policy, const Garment& garment,
                                    const std::string& path);
