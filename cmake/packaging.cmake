@@ -41,10 +41,13 @@ install(DIRECTORY samples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples U
   PATTERN generator EXCLUDE PATTERN library EXCLUDE PATTERN "*.cpp" EXCLUDE PATTERN CMakeLists.txt EXCLUDE)
 install(DIRECTORY samples/library DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples)
 install(DIRECTORY scripts/batch DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper FILES_MATCHING PATTERN "*.py") # of retarget-batch
+# Scripts stand beside what they import, and have a link in bin/.
+file(RELATIVE_PATH SLOPER_SCRIPTS /p/${CMAKE_INSTALL_BINDIR} /p/${CMAKE_INSTALL_LIBDIR}/sloper)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
 foreach(script compare-drape retarget-batch)
-  if(EXISTS ${PROJECT_SOURCE_DIR}/scripts/${script})
-    install(PROGRAMS scripts/${script} DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper)
-  endif()
+  install(PROGRAMS scripts/${script} DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper)
+  file(CREATE_LINK ${SLOPER_SCRIPTS}/${script} ${PROJECT_BINARY_DIR}/links/${script} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/links/${script} DESTINATION ${CMAKE_INSTALL_BINDIR})
 endforeach()
 
 set(CPACK_GENERATOR DEB)
