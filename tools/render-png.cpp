@@ -1,4 +1,6 @@
 /// render-png: pictures of bodies, panels and garments without a display.
+#include "render_options.hpp"
+
 #include <sloper/base/text.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/base/version.hpp>
@@ -19,117 +21,9 @@
 #include <sstream>
 
 using namespace sloper;
+using namespace sloper::render_options;
 
 namespace {
-
-struct Options {
-  std::vector<std::string> documents;
-  std::string view = "front", camera, map = "none", show, fabric = "auto", colors,
-              size = "800x1000", background = "white", context;
-  std::string labels, mask, values, as = "sheet", output;
-  bool sheet = false, compare = false;
-  int columns = 0;
-  std::optional<cli::Option> seconds_given, columns_given, labels_given, tolerance_given,
-      different_given, mask_given;
-  double tolerance = 0.98, different = 0.01, seconds = 0.1, range = 0, print_size = 0.1,
-         field_height = 0;
-};
-
-void add_options(cli::Tool& tool, Options& o) {
-  tool.option("DOC", o.documents,
-              "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files "
-              "with --sheet and --compare")
-      .required()
-      .check(cli::input_file());
-  tool.option("--view", o.view,
-              "front, back, left, right, iso, pattern (laid flat) or turntable:N; several joined "
-              "by commas make a sheet")
-      .show_default()
-      .type_name("LIST");
-  tool.option("--camera", o.camera, "camera.json instead of --view").check(cli::input_file());
-  tool.option("--field-height", o.field_height, "metres that a picture is high; 0 frames the scene")
-      .check(cli::finite_in(0, 1000, "m"));
-  tool.option("--map", o.map, "numbers as colours")
-      .check(cli::one_of(render::map_names()))
-      .show_default();
-  tool.option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one")
-      .check(cli::finite_in(0, 1e9, ""));
-  tool.option("--values", o.values,
-              "write the numbers behind the map: a .csv, or a .ply with a value for each vertex")
-      .check(cli::output_file());
-  tool.option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas")
-      .type_name("LIST");
-  tool.option("--fabric", o.fabric,
-              "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to "
-              "print on the cloth")
-      .show_default()
-      .type_name("NAME");
-  tool.option("--print-size", o.print_size, "width of one repeat of a printed PNG")
-      .check(cli::finite_in(0.001, 10, "m"))
-      .show_default();
-  tool.option("--color", o.colors,
-              "cloth colours as RRGGBB, one for each garment, joined by commas")
-      .type_name("LIST");
-  tool.option("--size", o.size, "WIDTHxHEIGHT of one view, pixels").show_default().type_name("WxH");
-  tool.option("--background", o.background, "white, grey, transparent, or a colour as RRGGBB")
-      .show_default()
-      .type_name("COLOR");
-  std::vector<std::string> contexts;
-  for (const render::ContextKind kind : render::built_contexts())
-    contexts.emplace_back(kind == render::ContextKind::EGL ? "egl" : "osmesa");
-  o.context = contexts.front();
-  tool.option("--context", o.context, "what draws: osmesa, or egl (surfaceless), as built in")
-      .check(cli::one_of(contexts))
-      .show_default();
-  tool.option("--as", o.as,
-              "several views: one sheet, one animation (APNG), or files of their own, numbered "
-              "before the ending")
-      .check(cli::one_of({"sheet", "animation", "files"}))
-      .show_default();
-  o.seconds_given =
-      tool.option("--seconds", o.seconds, "that each picture of an animation is shown")
-          .check(cli::finite_in(0.001, 60, "s"))
-          .show_default();
-  tool.flag("--sheet", o.sheet, "put PNG files side by side");
-  o.columns_given = tool.option("--columns", o.columns, "of a sheet; 0 is one row")
-                        .check(cli::finite_in(0, 64, ""));
-  o.labels_given =
-      tool.option("--labels", o.labels, "captions of a sheet, joined by commas").type_name("LIST");
-  tool.flag("--compare", o.compare,
-            "compare two PNG files: figures to standard output, exit 1 when they differ");
-  o.tolerance_given =
-      tool.option("--tolerance", o.tolerance, "with --compare: least structural similarity")
-          .check(cli::finite_in(0, 1, ""))
-          .show_default();
-  o.different_given =
-      tool.option("--different", o.different,
-                  "with --compare: largest share of pixels that may differ by more than 32 of 255")
-          .check(cli::finite_in(0, 1, ""))
-          .show_default();
-  o.mask_given = tool.option("--mask", o.mask, "with --compare: a PNG, bright where pixels count")
-                     .check(cli::input_file());
-  tool.option(
-          "-o,--output", o.output,
-          "the PNG, or a .glb, .obj or .ply of the scene; with --compare the difference picture")
-      .check(cli::output_file());
-  tool.example("render-png -o shirt.png body.json shirt.json", "a dressed body from the front");
-  tool.example("render-png --view front,back,left,right -o views.png body.json shirt.json",
-               "four views on one sheet");
-  tool.example("render-png --map strain --view iso -o strain.png body.json shirt.json",
-               "where the cloth is stretched");
-  tool.example("render-png --view pattern -o pattern.png panels.json",
-               "the pattern, laid flat, seams in colours");
-  tool.example("render-png --view turntable:36 --as animation --size 400x500 -o turn.png body.json "
-               "shirt.json",
-               "a turntable that browsers play");
-  tool.example("render-png --show landmarks,slices -o landmarks.png body.json",
-               "what was measured on a scan");
-  tool.example("render-png -o shirt.glb body.json shirt.json", "a model for a browser");
-  tool.example("render-png --sheet --labels before,after -o pair.png a.png b.png",
-               "two pictures side by side");
-  tool.formats("body, garment and panels documents (version 1), pattern files, OBJ, PLY, STL, PNG",
-               "PNG, APNG, GLB, OBJ, PLY, CSV");
-}
 
 int run_compare(const Options& o) {
   if (o.documents.size() != 2)
@@ -160,13 +54,6 @@ int run_sheet(const Options& o) {
                                       o.columns > 0 ? o.columns : static_cast<int>(images.size())),
                 {{"Software", "render-png"}});
   return 0;
-}
-
-/// An option that would be passed over is refused with what it goes with.
-void needs(const char* name, const std::optional<cli::Option>& option, bool there, const char* fact,
-           const char* next) {
-  if (option->given() && !there)
-    throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", name, fact, next);
 }
 
 /// Names that promise something else than what would be written are refused.
@@ -243,6 +130,66 @@ std::vector<std::optional<render::CameraOptions>> views_of(const Options& o) {
   return views;
 }
 
+/// What is drawn, and how.
+struct Drawing {
+  const render::Scene& scene;
+  const std::vector<render::DrawMesh>& meshes; ///< of the scene, with smooth cloth
+  const render::DrawOptions& options;
+  const render::Legend& legend;
+  const render::Show& show;
+  /// Views without a camera draw the pattern, laid flat.
+  std::vector<std::optional<render::CameraOptions>> views;
+};
+
+/// Draws from each view and writes the pictures.
+void draw_views(cli::Tool& tool, const Options& o, Drawing drawing) {
+  const render::Scene& scene = drawing.scene;
+  const render::DrawOptions& options = drawing.options;
+  const render::Legend& legend = drawing.legend;
+  const render::Show& show = drawing.show;
+  std::vector<std::optional<render::CameraOptions>>& views = drawing.views;
+  std::optional<render::Renderer> renderer;
+  std::vector<io::Image> images;
+  const Texts texts = provenance(scene);
+  std::size_t drawn = 0;
+  const bool fits =
+      o.camera.empty() &&
+      o.field_height == 0; // nobody says how large: labels and legend have room of their own
+  const double left = fits ? render::label_share(scene, show, options.width, options.height) : 0;
+  const int legend_width = render::legend_width(legend, options.width, options.height);
+  const double right = fits ? left + static_cast<double>(legend_width) / options.width : 0;
+  if (fits && views.size() > 1)
+    render::share_scale(drawing.meshes, views, static_cast<double>(options.width) / options.height,
+                        left, right);
+  if (o.as != "files")
+    render::check_pixels({options.width, options.height}, views.size());
+  for (const auto& view : views) {
+    if (tool.reporter().stop_requested())
+      throw Error(ErrorKind::FAILED, "general.stopped"_id, o.output, "",
+                  "stopped by the user; nothing is written");
+    tool.reporter().progress("draw", static_cast<double>(drawn + images.size()) /
+                                         static_cast<double>(views.size()));
+    if (!view) {
+      images.push_back(render::draw_pattern(scene, options));
+    } else {
+      if (!renderer)
+        renderer.emplace(drawing.meshes, options).keep_depth(show.any());
+      const render::Camera camera = render::frame_beside(
+          drawing.meshes, *view, static_cast<double>(options.width) / options.height, left, right);
+      images.push_back(renderer->draw(camera));
+      if (show.any())
+        render::draw_show(images.back(), scene, camera, *renderer, show, legend_width);
+    }
+    render::draw_legend(images.back(), legend);
+    if (views.size() > 1 && o.as == "files") { // one at a time: there may be hundreds
+      io::write_png(io::numbered_path(o.output, ++drawn, views.size()), images.back(), texts);
+      images.clear();
+    }
+  }
+  if (!images.empty())
+    write_pictures(o, images, texts);
+}
+
 int run_render(cli::Tool& tool, const Options& o) {
   check_output(o.output);
   const bool values_as_ply = wants_ply(o);
@@ -282,46 +229,7 @@ int run_render(cli::Tool& tool, const Options& o) {
                          print.image.rgba.empty() ? nullptr : &print);
     return 0;
   }
-  std::optional<render::Renderer> renderer;
-  std::vector<io::Image> images;
-  const Texts texts = provenance(scene);
-  std::size_t drawn = 0;
-  const bool fits =
-      o.camera.empty() &&
-      o.field_height == 0; // nobody says how large: labels and legend have room of their own
-  const double left = fits ? render::label_share(scene, show, options.width, options.height) : 0;
-  const int legend_width = render::legend_width(legend, options.width, options.height);
-  const double right = fits ? left + static_cast<double>(legend_width) / options.width : 0;
-  if (fits && views.size() > 1)
-    render::share_scale(meshes, views, static_cast<double>(options.width) / options.height, left,
-                        right);
-  if (o.as != "files")
-    render::check_pixels({options.width, options.height}, views.size());
-  for (const auto& view : views) {
-    if (tool.reporter().stop_requested())
-      throw Error(ErrorKind::FAILED, "general.stopped"_id, o.output, "",
-                  "stopped by the user; nothing is written");
-    tool.reporter().progress("draw", static_cast<double>(drawn + images.size()) /
-                                         static_cast<double>(views.size()));
-    if (!view) {
-      images.push_back(render::draw_pattern(scene, options));
-    } else {
-      if (!renderer)
-        renderer.emplace(meshes, options).keep_depth(show.any());
-      const render::Camera camera = render::frame_beside(
-          meshes, *view, static_cast<double>(options.width) / options.height, left, right);
-      images.push_back(renderer->draw(camera));
-      if (show.any())
-        render::draw_show(images.back(), scene, camera, *renderer, show, legend_width);
-    }
-    render::draw_legend(images.back(), legend);
-    if (views.size() > 1 && o.as == "files") { // one at a time: there may be hundreds
-      io::write_png(io::numbered_path(o.output, ++drawn, views.size()), images.back(), texts);
-      images.clear();
-    }
-  }
-  if (!images.empty())
-    write_pictures(o, images, texts);
+  draw_views(tool, o, {scene, meshes, options, legend, show, std::move(views)});
   return 0;
 }
 
@@ -332,20 +240,7 @@ int main(int argc, char** argv) {
   Options options;
   add_options(tool, options);
   return tool.run(argc, argv, [&] {
-    const bool several = options.sheet || options.view.find_first_of(",:") != std::string::npos;
-    needs("--mask", options.mask_given, options.compare, "says where pictures are compared",
-          "give --compare too");
-    needs("--tolerance", options.tolerance_given, options.compare,
-          "says how like compared pictures must be", "give --compare too");
-    needs("--different", options.different_given, options.compare,
-          "says how many pixels of compared pictures may differ", "give --compare too");
-    needs("--seconds", options.seconds_given, options.as == "animation", "is for animations",
-          "give --as animation too");
-    needs("--labels", options.labels_given, several,
-          "captions the pictures of a sheet, and there is one picture",
-          "ask for several views, or give --sheet");
-    needs("--columns", options.columns_given, several, "lays out a sheet, and there is one picture",
-          "ask for several views, or give --sheet");
+    check_options(options);
     if (options.compare)
       return run_compare(options);
     if (options.output.empty())

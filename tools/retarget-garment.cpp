@@ -1,4 +1,6 @@
 /// retarget-garment: a draped garment on another body, and how it fits there.
+#include "retarget_options.hpp"
+
 #include <sloper/body/body_json.hpp>
 #include <sloper/cli/run_tool.hpp>
 #include <sloper/collision/skin_cache.hpp>
@@ -21,90 +23,9 @@
 #include <sloper/pattern/write/export_pattern.hpp>
 
 using namespace sloper;
+using namespace sloper::retarget_options;
 
 namespace {
-
-struct Options {
-  std::string garment, from, fabric, to, mode = "keep-fabric", accuracy = "standard", policy, fit,
-                                         fit_csv, fit_page, pattern, report, cache, output;
-  std::vector<std::string> set;
-  double max_seconds = 0;
-  bool no_drape = false, nearest_size = false;
-};
-
-std::vector<std::string> fabric_names() {
-  std::vector<std::string> names;
-  for (const garment::Material& m : garment::material_presets())
-    names.push_back(m.name);
-  return names;
-}
-
-void add_options(cli::Tool& tool, Options& o) {
-  tool.option("--garment", o.garment,
-              "shirt.json from drape or retarget-garment; or a mesh without a pattern (OBJ, PLY, "
-              "GLB), with --from")
-      .required()
-      .check(cli::input_file());
-  tool.option("--from", o.from, "of a mesh: body.json of the body that wears it in the file")
-      .check(cli::input_file());
-  tool.option("--fabric", o.fabric, "of a mesh: its fabric (default: cotton-poplin)")
-      .check(cli::one_of(fabric_names()));
-  tool.flag("--nearest-size", o.nearest_size,
-            "of NAME@SIZE.json take the size beside it whose own body is nearest to the other one, "
-            "by the "
-            "girths that the garment goes round");
-  tool.option("--to", o.to, "body.json of the other body, from scan-landmarks")
-      .required()
-      .check(cli::input_file());
-  tool.option("--mode", o.mode,
-              "keep-fabric: the same sewn garment; keep-fit: the pattern is regraded so that the "
-              "ease stays (default: keep-fabric)")
-      .check(cli::one_of({"keep-fabric", "keep-fit"}));
-  tool.option("--policy", o.policy,
-              "policy.json with limits per girth; exit 1 when the garment does not fit by it")
-      .check(cli::input_file());
-  tool.option("--fit", o.fit,
-              "write fit.json: body, garment, ease, strain, gap, pressure and verdict per girth")
-      .check(cli::output_file());
-  tool.option("--fit-csv", o.fit_csv, "write the girths of the fit report as CSV")
-      .check(cli::output_file());
-  tool.option("--fit-page", o.fit_page, "write the fit report as one HTML page")
-      .check(cli::output_file());
-  tool.option("--pattern", o.pattern,
-              "with keep-fit: write the regraded pattern JSON; its .dxf and its .csv of changes in "
-              "cm go beside it")
-      .check(cli::output_file());
-  tool.option("--report", o.report,
-              "write report.json: placement, convergence, effects, quality, settings")
-      .check(cli::output_file());
-  tool.option("--accuracy", o.accuracy, "how exact the re-drape is (default: standard)")
-      .check(cli::one_of(garment::accuracy_names()));
-  tool.option("--set", o.set, "one setting of the re-drape").type_name("KNOB=VALUE");
-  tool.option("--max-seconds", o.max_seconds,
-              "stop after this wall time, s, with the best state so far (exit 4)")
-      .check(cli::finite_in(0, 1e6, "s"));
-  tool.option("--cache", o.cache,
-              "keep prepared bodies in this folder for later runs on the same body: "
-              "the same result, sooner")
-      .type_name("DIR");
-  tool.flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
-  tool.option("-o,--output", o.output,
-              "shirt-b.json; shirt-b.obj is written beside it. Of a mesh: also shirt-b.mesh.EXT, "
-              "the file on the other body; or NAME.EXT for that alone")
-      .required()
-      .check(cli::document_or_mesh_file());
-  tool.example(
-      "retarget-garment --garment shirt.json --to other.body.json --fit fit.json -o shirt-b.json",
-      "put a shirt on another body and see how it fits");
-  tool.example("retarget-garment --garment shirt.obj --from body.json --to other.body.json -o "
-               "shirt-b.obj",
-               "put a mesh that has no pattern on another body; it comes out as it came in");
-  tool.formats("garment, body and fit policy documents (version 1)",
-               "garment, fit and report documents (version 1), OBJ");
-  tool.example(
-      "retarget-garment --garment shirt.json --to other.body.json --mode keep-fit -o shirt-b.json",
-      "make the shirt over for another body");
-}
 
 void write_fit(const Options& o, const garment::FitReport& fit, const std::string& tool,
                bool converged, const io::Json& inputs) {
@@ -238,15 +159,37 @@ std::vector<garment::RollLineState> judge_rolls(const Options& o, const garment:
   return states;
 }
 
+/// What the report says beside the drape.
+struct Retargeted {
+  const garment::RetargetOutcome& outcome; ///< with all findings
+  const std::vector<garment::RollLineState>& rolls;
+  const Source& source;
+  const std::optional<garment::DressedMesh>& dressed; ///< of a mesh without a pattern
+  const garment::SizeRanking& sizes;                  ///< with --nearest-size
+  const io::Json& inputs;
+};
+
+void write_report(const Options& o, const Retargeted& all, const std::string& tool) {
+  const garment::Garment& garment = all.outcome.retargeted.garment;
+  io::Json document = garment::report_json(all.outcome.report, tool);
+  document["mode"] = o.mode;
+  document["placement"] = garment::placement_json(all.outcome.retargeted.report);
+  if (!all.rolls.empty())
+    document["roll_lines"] = garment::roll_lines_json(all.rolls);
+  io::put_findings(document, all.outcome.retargeted.report.findings);
+  if (all.dressed)
+    document["garment_mesh"] = garment::mesh_json(*all.source.mesh, &*all.dressed);
+  if (o.nearest_size)
+    document["sizes"] = garment::ranking_json(all.sizes);
+  document["inputs"] = all.inputs;
+  document["hash"] = {{"strict", garment::strict_hash(garment)},
+                      {"quantised_10um", garment::quantised_hash(garment)}};
+  io::write_json(o.report, document);
+}
+
 int run(cli::Tool& tool, Options o) {
   const garment::RetargetMode mode = garment::retarget_mode_from_name(o.mode);
-  if (!o.pattern.empty() && mode != garment::RetargetMode::KEEP_FIT)
-    throw Error(ErrorKind::USAGE, "option.conflict"_id, "", "--pattern",
-                "keep-fabric does not change the pattern", "say --mode keep-fit");
-  if (o.pattern == "-")
-    throw Error(ErrorKind::USAGE, "option.needs-file-name"_id, "", "--pattern",
-                "a regraded pattern is three files and cannot go to standard output",
-                "give a file name");
+  check_options(o, mode);
   garment::DrapeSettings settings = garment::preset_settings(o.accuracy);
   for (const std::string& assignment : o.set)
     garment::set_knob(settings, assignment);
@@ -320,23 +263,9 @@ int run(cli::Tool& tool, Options o) {
   for (const Message& finding : findings)
     tool.reporter().warning(finding);
   write_fit(o, fit, tool.name(), report.converged, inputs);
-  if (!o.report.empty()) {
-    io::Json document = garment::report_json(report, tool.name());
-    document["mode"] = o.mode;
-    document["placement"] = garment::placement_json(outcome.retargeted.report);
-    findings.insert(findings.end(), file_findings.begin(), file_findings.end());
-    if (!rolls.empty())
-      document["roll_lines"] = garment::roll_lines_json(rolls);
-    io::put_findings(document, findings);
-    if (dressed)
-      document["garment_mesh"] = garment::mesh_json(*put_on.mesh, &*dressed);
-    if (o.nearest_size)
-      document["sizes"] = garment::ranking_json(sizes);
-    document["inputs"] = inputs;
-    document["hash"] = {{"strict", garment::strict_hash(garment)},
-                        {"quantised_10um", garment::quantised_hash(garment)}};
-    io::write_json(o.report, document);
-  }
+  findings.insert(findings.end(), file_findings.begin(), file_findings.end());
+  if (!o.report.empty())
+    write_report(o, {outcome, rolls, put_on, dressed, sizes, inputs}, tool.name());
   if (outcome.was_draped() && !report.converged && report.misfit == garment::Misfit::NONE)
     tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
                                                          " after " + std::to_string(report.steps) +

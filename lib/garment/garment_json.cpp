@@ -1,3 +1,4 @@
+#include <garment/redrape/redrapes_json.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 #include <sloper/garment/garment_json.hpp>
 #include <sloper/garment/material_json.hpp>
@@ -100,21 +101,6 @@ Json bind_json(const Bind& bind) {
         row.push_back(value);
     j["particles"].push_back(row);
   }
-  return j;
-}
-
-Json redrapes_json(const Garment& garment) {
-  const Redrapes& r = garment.redrapes;
-  Json j;
-  j["count"] = r.count;
-  if (r.spread_m.size() == garment.position.size())
-    j["spread_m"] = r.spread_m;
-  j["girths"] = Json::object();
-  for (const auto& [name, row] : r.girths)
-    j["girths"][name] = {{"ease_m", row.ease_m}, {"strain", row.strain}, {"gap_m", row.gap_m}};
-  j["hems_m"] = Json::object();
-  for (const auto& [name, sd] : r.hems_m)
-    j["hems_m"][name] = sd;
   return j;
 }
 
@@ -355,35 +341,6 @@ void check_whole(const Garment& garment) {
                 "a garment to be written is not whole");
 }
 
-double not_negative(const Node& node) {
-  const double x = node.number();
-  if (x < 0)
-    node.fail("json.out-of-range"_id, "a spread is negative");
-  return x;
-}
-
-Redrapes read_redrapes(const Node& node, std::size_t n_particles) {
-  Redrapes out;
-  out.count = count(node.at("count"));
-  if (node.has("spread_m")) {
-    const Node spread = node.at("spread_m");
-    if (spread.size() != n_particles)
-      spread.fail("json.wrong-count"_id, "is not one number for each particle");
-    for (std::size_t i = 0; i < n_particles; ++i)
-      out.spread_m.push_back(not_negative(spread.at(i)));
-  }
-  if (node.has("girths"))
-    for (const std::string& name : node.at("girths").keys()) {
-      const Node row = node.at("girths").at(name);
-      out.girths[name] = {not_negative(row.at("ease_m")), not_negative(row.at("strain")),
-                          not_negative(row.at("gap_m"))};
-    }
-  if (node.has("hems_m"))
-    for (const std::string& name : node.at("hems_m").keys())
-      out.hems_m[name] = not_negative(node.at("hems_m").at(name));
-  return out;
-}
-
 } // namespace
 
 Garment read_garment(const std::string& path) {
@@ -485,7 +442,7 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
   if (!garment.bind.empty())
     document["bind"] = bind_json(garment.bind);
   if (garment.redrapes.count > 0)
-    document["redrapes"] = redrapes_json(garment);
+    document["redrapes"] = redrapes_json(garment.redrapes, garment.position.size());
   std::string mesh = io::obj_text(obj, "garment of " + generator_stamp(tool));
   io::put_mesh_hash(document, mesh);
   return {std::move(document), std::move(mesh)};

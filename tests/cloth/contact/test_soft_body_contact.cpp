@@ -20,19 +20,37 @@ TriangleMesh block() {
   return mesh;
 }
 
+/// A sheet of 3 by 3 particles over a body, with the effect bound.
+struct Sheet {
+  explicit Sheet(const TriangleMesh& skin, double reach = LEVEL)
+      : body(skin), effect(grid.mesh, body, {.reach_m = reach, .stiffness_n_m3 = 1e4}),
+        matrix(grid.mesh.n_particles, couplings_of(effect)) {
+    effect.bind(matrix);
+  }
+
+  static Couplings couplings_of(SoftBodyContactEffect& effect) {
+    Couplings couplings;
+    effect.declare(couplings);
+    return couplings;
+  }
+
+  /// The forces on the particles with the sheet level at a height (m).
+  std::vector<Vec3> forces_at(double height) {
+    std::vector<Vec3> x = grid.x;
+    for (Vec3& p : x)
+      p.y() = height;
+    return force_of(effect, grid.mesh.n_particles, x, matrix);
+  }
+
+  Grid grid = make_grid(3, 0.06);
+  collision::BodyCollider body;
+  SoftBodyContactEffect effect;
+  BlockMatrix matrix;
+};
+
 double push_at(double height) {
-  const Grid grid = make_grid(3, 0.06);
-  const collision::BodyCollider body(block());
-  SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = LEVEL, .stiffness_n_m3 = 1e4});
-  Couplings couplings;
-  effect.declare(couplings);
-  BlockMatrix matrix(grid.mesh.n_particles, couplings);
-  effect.bind(matrix);
-  std::vector<Vec3> x = grid.x;
-  for (Vec3& p : x)
-    p.y() = height;
   double sum = 0;
-  for (const Vec3& f : force_of(effect, grid.mesh.n_particles, x, matrix))
+  for (const Vec3& f : Sheet(block()).forces_at(height))
     sum += f.y();
   return sum;
 }
@@ -57,40 +75,20 @@ TEST(SoftBodyContact, its_matrix_is_the_change_of_its_force) {
 }
 
 TEST(SoftBodyContact, a_skin_that_came_nearer_is_looked_for_again) {
-  const Grid grid = make_grid(3, 0.06);
-  collision::BodyCollider body(block());
-  SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = LEVEL, .stiffness_n_m3 = 1e4});
-  Couplings couplings;
-  effect.declare(couplings);
-  BlockMatrix matrix(grid.mesh.n_particles, couplings);
-  effect.bind(matrix);
-  std::vector<Vec3> x = grid.x;
-  for (Vec3& p : x)
-    p.y() = 2 * LEVEL;
-  EXPECT_EQ(force_of(effect, grid.mesh.n_particles, x, matrix)[4].y(), 0);
-  std::vector<Vec3> skin = body.mesh().positions;
+  Sheet sheet(block());
+  EXPECT_EQ(sheet.forces_at(2 * LEVEL)[4].y(), 0);
+  std::vector<Vec3> skin = sheet.body.mesh().positions;
   for (Vec3& p : skin)
     p.y() += 1.5 * LEVEL;
-  body.set_positions(skin);
-  effect.body_moved(1.5 * LEVEL);
-  EXPECT_GT(force_of(effect, grid.mesh.n_particles, x, matrix)[4].y(), 0);
+  sheet.body.set_positions(skin);
+  sheet.effect.body_moved(1.5 * LEVEL);
+  EXPECT_GT(sheet.forces_at(2 * LEVEL)[4].y(), 0);
 }
 
 TEST(SoftBodyContact, cloth_that_went_far_into_the_body_since_it_was_seen_outside_is_pushed_out) {
-  const Grid grid = make_grid(3, 0.06);
-  const collision::BodyCollider body(block());
-  SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = LEVEL, .stiffness_n_m3 = 1e4});
-  Couplings couplings;
-  effect.declare(couplings);
-  BlockMatrix matrix(grid.mesh.n_particles, couplings);
-  effect.bind(matrix);
-  std::vector<Vec3> x = grid.x;
-  for (const double height : {0.3, 0.1, -0.1, -0.15}) {
-    for (Vec3& p : x)
-      p.y() = height;
-    const double push = force_of(effect, grid.mesh.n_particles, x, matrix)[4].y();
-    EXPECT_EQ(push > 0, height < 0) << height;
-  }
+  Sheet sheet(block());
+  for (const double height : {0.3, 0.1, -0.1, -0.15})
+    EXPECT_EQ(sheet.forces_at(height)[4].y() > 0, height < 0) << height;
 }
 
 TEST(SoftBodyContact, a_thumb_below_the_middle_of_a_face_is_felt_there) {
@@ -102,16 +100,7 @@ TEST(SoftBodyContact, a_thumb_below_the_middle_of_a_face_is_felt_there) {
     for (int i : t)
       p += Vec3(grid.x[i].x(), 0, grid.x[i].z()) / 3;
   }
-  const collision::BodyCollider body(thumb);
-  SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = 0.005, .stiffness_n_m3 = 1e4});
-  Couplings couplings;
-  effect.declare(couplings);
-  BlockMatrix matrix(grid.mesh.n_particles, couplings);
-  effect.bind(matrix);
-  std::vector<Vec3> x = grid.x;
-  for (Vec3& p : x)
-    p.y() = 0.002;
-  const std::vector<Vec3> force = force_of(effect, grid.mesh.n_particles, x, matrix);
+  const std::vector<Vec3> force = Sheet(thumb, 0.005).forces_at(0.002);
   for (int i : t)
     EXPECT_GT(force[i].y(), 0);
 }
