@@ -119,6 +119,10 @@ void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::s
                 "name a .json, .dxf or .svg file");
 }
 
+std::string questions(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " question is" : " questions are");
+}
+
 /// Seams of a file that states none. True when all that could be sewn is certain; else the open
 /// questions go to standard output.
 bool guess_seams(cli::Tool& tool, pattern::Pattern& source, bool pieces_chosen) {
@@ -140,8 +144,8 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source, bool pieces_chosen) 
   std::cout << io::to_text(document);
   tool.reporter().warning({"pattern.seams-guessed"_id,
                            "the file states no seams: " + std::to_string(source.seams.size()) +
-                               " are guessed, " + std::to_string(document["questions"].size()) +
-                               " questions are open" +
+                               " are guessed, " + questions(document["questions"].size()) +
+                               " open" +
                                (apart.empty() ? "" : ", nothing is found for " + apart.front()) +
                                "; answer the questions on standard output and give them "
                                "as --sewing, or take the pieces --unsewn"});
@@ -188,6 +192,15 @@ int run(cli::Tool& tool, const Options& o) {
     if (!o.write_pattern.empty())
       write_pattern(tool, source, o.write_pattern);
     return o.check ? check(tool, source, o) : 0;
+  }
+  if (!source.open_questions.empty() && !o.unsewn) {
+    tool.reporter().warning(
+        {"pattern.question-open"_id,
+         o.sewing + ": /questions: " + questions(source.open_questions.size()) +
+             " not answered, the first about " + source.open_questions.front() +
+             "; copy one of its candidates to \"seams\", or take the question out where that edge "
+             "stays free"});
+    return 1;
   }
   const bool may_lack_seams = source.source_format == "dxf" || source.source_format == "clo";
   if (source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn &&

@@ -117,6 +117,8 @@ struct Pattern {
   std::vector<Panel> panels;       ///< in the order of the file; of DXF by name
   std::vector<Seam> seams;         ///< in the order of the file
   std::vector<Message> findings;   ///< doubts of the importer
+  /// "panel, edge" of each question of a sidecar that none of its seams answers.
+  std::vector<std::string> open_questions;
 
   /// Index of a panel by name; -1 when there is none.
   int find_panel(const std::string& name) const;

@@ -155,6 +155,9 @@ io::Json read_sidecar(const std::string& path) {
     throw input_error("json.wrong-format"_id, path, "/format",
                       "is a \"" + format + "\" document, not a sidecar with seams",
                       "give what answers the questions of pattern-mesh");
+  io::Node(sidecar, path)
+      .allow_only({"format", "version", "generator", "length_unit", "units", "name", "pattern",
+                   "body", "source", "panels", "frames", "place", "seams", "questions", "without"});
   return sidecar;
 }
 
@@ -169,6 +172,31 @@ std::set<std::string> sewn_panels(const io::Json& sidecar, const std::string& pa
         names.insert(runs.at(r).at("panel").string());
     }
   return names;
+}
+
+/// Places that a sidecar asks about and sews nothing to, as "panel, edge".
+std::vector<std::string> open_questions(const io::Json& sidecar, const std::string& path,
+                                        const Pattern& pattern) {
+  std::vector<std::string> open;
+  const io::Node root(sidecar, path);
+  if (!root.has("questions"))
+    return open;
+  std::set<std::string> sewn;
+  for (const Seam& seam : pattern.seams)
+    for (const std::vector<Run>* side : {&seam.a, &seam.b})
+      for (const Run& run : *side)
+        sewn.insert(pattern.panels[run.panel].name + ", " +
+                    pattern.panels[run.panel].edge(run.edge).name);
+  const io::Node questions = root.at("questions");
+  for (std::size_t k = 0; k < questions.size(); ++k) {
+    const io::Node question = questions.at(k);
+    if (!question.has("run"))
+      continue; // which of several pieces: "without" says it
+    const std::string place = question.at("panel").string() + ", " + question.at("run").string();
+    if (sewn.count(place) == 0)
+      open.push_back(place);
+  }
+  return open;
 }
 
 /// Names of the pieces that a sidecar leaves out.
@@ -241,6 +269,7 @@ Pattern read_pattern(const std::string& path, const PatternChoice& choice) {
   if (!choice.sewing.empty()) {
     pattern.seams.clear(); // the sidecar replaces what the file says
     read_sewing_seams(pattern, sidecar, choice.sewing);
+    pattern.open_questions = open_questions(sidecar, choice.sewing, pattern);
   }
   std::vector<std::string> without = choice.without;
   if (!choice.sewing.empty())

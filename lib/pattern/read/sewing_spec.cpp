@@ -5,13 +5,20 @@
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
 
+#include <set>
+#include <string>
+
 namespace sloper::pattern {
 namespace {
+
+/// Other words would be sewn like "seam", in silence.
+const std::set<std::string> SEAM_KINDS = {"seam", "dart", "gather", "closure"};
 
 std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
   std::vector<Run> side;
   for (std::size_t k = 0; k < node.size(); ++k) {
     const io::Node item = node.at(k);
+    item.allow_only({"panel", "run", "range", "dir"});
     Run run;
     run.panel = panel_named(pattern, item.at("panel"));
     run.edge = edge_named(pattern.panels[run.panel], item.at("run"));
@@ -40,9 +47,14 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
 static void read_seams(Pattern& pattern, const io::Node& seams) {
   for (std::size_t k = 0; k < seams.size(); ++k) {
     const io::Node node = seams.at(k);
+    node.allow_only({"name", "kind", "ease", "open", "a", "b", "and", "score", "ratio", "length_a",
+                     "length_b"});
     Seam seam;
     seam.name = node.string("name", "seam " + std::to_string(k));
     seam.kind = node.string("kind", "seam");
+    if (SEAM_KINDS.count(seam.kind) == 0)
+      node.at("kind").fail("json.unknown-word"_id, "'" + seam.kind + "' is not a kind of seam",
+                           "use seam, dart, gather or closure");
     seam.ease = node.string("ease", "");
     seam.open = node.boolean("open", false);
     seam.a = read_side(node.at("a"), pattern);

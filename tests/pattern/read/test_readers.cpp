@@ -1,7 +1,9 @@
 #include <support/pattern_texts.hpp>
+#include <support/scratch_folder.hpp>
 
 #include <gtest/gtest.h>
 #include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
 
 namespace sloper::pattern::test {
 namespace {
@@ -244,6 +246,44 @@ TEST(Readers, ASidecarMayLeaveASeamOpen) {
   ASSERT_EQ(p.seams.size(), 4u);
   EXPECT_TRUE(p.seams[2].open);
   EXPECT_FALSE(p.seams[3].open);
+}
+
+TEST(Readers, AMisspeltWordOfASidecarIsRefused) {
+  const auto fact = [](const std::string& run, const std::string& seam) {
+    Pattern p = own(tube_text());
+    try {
+      read_sewing_seams(p,
+                        io::parse_json(R"({"seams": [{"a": [{"panel": "front", "run": "top")" +
+                                           run + R"(}], "b": [{"panel": "back", "run": "top"}])" +
+                                           seam + "}]}",
+                                       "s"),
+                        "s");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(fact("", ""), "");
+  EXPECT_NE(fact(R"(, "drr": "-")", "").find("unknown key \"drr\""), std::string::npos);
+  EXPECT_NE(fact("", R"(, "knd": "dart")").find("unknown key \"knd\""), std::string::npos);
+  EXPECT_NE(fact("", R"(, "kind": "gahter")").find("'gahter' is not a kind of seam"),
+            std::string::npos);
+}
+
+TEST(Readers, AQuestionOfASidecarThatNoSeamAnswersIsOpen) {
+  const sloper::test::ScratchFolder folder;
+  const std::string pattern = folder / "tube.json", sidecar = folder / "q.json";
+  io::write_file(pattern, tube_text());
+  const auto open = [&](const std::string& seams) {
+    io::write_file(sidecar, R"({"seams": [)" + seams +
+                                R"(], "questions": [{"panel": "front", "run": "top"},
+                                {"versions": [["front"], ["back"]]}]})");
+    return read_pattern(pattern, PatternChoice{sidecar, "", "", 0, 0, {}, {}}).open_questions;
+  };
+  EXPECT_EQ(open(""), std::vector<std::string>{"front, top"});
+  EXPECT_TRUE(open(R"({"a": [{"panel": "front", "run": "top"}],
+                       "b": [{"panel": "back", "run": "top", "dir": "-"}]})")
+                  .empty());
 }
 
 TEST(Readers, CutTextsNeverCrash) { // a truncated or damaged file is refused or read, never more
