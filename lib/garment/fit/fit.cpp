@@ -149,10 +149,13 @@ void judge_strain(const FitPolicy& policy, FitReport& report) {
   }
   report.verdict = FitVerdict::TOO_SMALL;
   report.rule = {by_p99 ? "strain_p99" : "strain_max", by_p99 ? p99 : most};
-  const double strain_p99 = worst ? worst->strain_p99 : report.strain_p99;
-  const double strain = by_p99 ? strain_p99 : report.strain_max;
-  report.reason = "is stretched by " + whole_percent(strain) + (by_p99 ? "" : " at one place") +
-                  where + "; the cloth bears " + whole_percent(by_p99 ? p99 : most);
+  if (by_p99)
+    report.reason = "is stretched by " + percent(report.strain_p99) +
+                    " or more in a hundredth of its cloth, chiefly" + where + "; the cloth bears " +
+                    whole_percent(p99);
+  else
+    report.reason = "is stretched by " + whole_percent(report.strain_max) + " at one place" +
+                    where + "; the cloth bears " + whole_percent(most);
 }
 
 /// A cuff that is too small because it lies on the hand: that the sleeve is too long is the reason.

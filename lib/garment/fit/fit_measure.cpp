@@ -366,9 +366,13 @@ std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& bo
                                    const FitHem& hem, double convergence, std::string& why,
                                    const std::vector<Vec3>* source) {
   const Garment& garment = cloth.garment;
-  const auto edge = edge_line(garment, body, hem, why);
+  auto edge = edge_line(garment, body, hem, why);
   if (!edge)
     return std::nullopt;
+  // An edge that rises and falls around a belly is shorter than the skin's section by its plane; at
+  // rest no closed line around the skin is shorter than what it goes around.
+  if (garment.converged)
+    edge->place.body_m = std::min(edge->place.body_m, edge->line.lying);
   FitRow row = row_of(edge->place, edge->line);
   if (source && edge->line.rest > 0) {
     double worn = 0;

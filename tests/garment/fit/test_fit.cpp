@@ -4,6 +4,7 @@
 
 #include <garment/fit/fit_places.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/materials.hpp>
@@ -158,6 +159,8 @@ TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
   const Dressed d = dressed(body, g);
   EXPECT_FALSE(d.report.fits);
   EXPECT_NE(d.report.reason.find("; the cloth bears 5 %"), std::string::npos) << d.report.reason;
+  EXPECT_EQ(d.report.reason.rfind("is stretched by " + percent(d.report.strain_p99), 0), 0u)
+      << "the number that was judged: " << d.report.reason;
   double most = 0;
   for (const FitRegion& r : d.report.regions) {
     most = std::max(most, r.strain_p99);
