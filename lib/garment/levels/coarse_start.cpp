@@ -30,6 +30,12 @@ constexpr double WIDEST_GAP =
 constexpr SoftRelaxing COARSE_RELAXING = {};
 constexpr SoftRelaxing FINE_RELAXING = {
     .steps = 15, .bending = 10, .reach_m = 0.008, .last_reach_m = 0.006, .cg_tolerance = 1e-2};
+/// Where a garment is placed on another body, cloth of arm pits is folded into itself. Stiff enough
+/// it springs flat, through other cloth: with 30 times its bending a T-shirt kept 144 crossing
+/// pairs and two starts 1 um apart ended 8 mm apart, with 3,000 times 2.6 mm, with 30,000 times 1.5
+/// mm.
+constexpr SoftRelaxing PLACED_RELAXING = {
+    .steps = 50, .bending = 3e4, .reach_m = 0.008, .last_reach_m = 0.006, .cg_tolerance = 1e-4};
 constexpr int CLEARING_ROUNDS = 6;
 constexpr double CLEARANCE = 1.1;      // times the contact gap
 constexpr double CLEARING_REACH = 0.1; // m
@@ -172,6 +178,19 @@ static bool adds_folds_alone(const Garment& garment) {
          });
 }
 
+/// Why soft sewing and relaxing do not know all of this scene; empty: they do.
+static std::string refusal_of_soft_cloth(const Garment& garment, const DrapeSettings& settings) {
+  if (!adds_folds_alone(garment))
+    return "the scene adds effects";
+  if (garment.panels.source)
+    for (const pattern::Panel& panel : garment.panels.source->panels)
+      if (!panel.pleats.empty())
+        return "pleats are folded on their own mesh";
+  if (!settings.effects.starts_with("auto") || settings.effects.find("-") != std::string::npos)
+    return "effects were chosen by hand";
+  return "";
+}
+
 std::string refusal_of_levels(const Garment& garment, const body::Body* body,
                               const DrapeSettings& settings) {
   if (!garment.panels.source)
@@ -182,17 +201,37 @@ std::string refusal_of_levels(const Garment& garment, const body::Body* body,
     return "there is no body";
   if (garment.panels.seams.empty())
     return "nothing is sewn";
-  if (!adds_folds_alone(garment))
-    return "the scene adds effects";
-  for (const pattern::Panel& panel : garment.panels.source->panels)
-    if (!panel.pleats.empty())
-      return "pleats are folded on their own mesh";
+  if (std::string why = refusal_of_soft_cloth(garment, settings); !why.empty())
+    return why;
   if (!garment.rest_scale.empty())
     return "rest lengths were edited";
-  if (!settings.effects.starts_with("auto") || settings.effects.find("-") != std::string::npos)
-    return "effects were chosen by hand";
   if (garment.panels.placed.size() != garment.panels.pattern.size())
     return "the panels are not placed";
+  return "";
+}
+
+std::string relax_where_placed(Garment& garment, const body::Body& body,
+                               const DrapeSettings& settings, Reporter& reporter,
+                               DrapeReport& report) {
+  if (settings.levels < 2)
+    return "it is to be draped as it lies";
+  if (std::string why = refusal_of_soft_cloth(garment, settings); !why.empty())
+    return why;
+  Garment cloth = garment;
+  CollisionBody met(&body, SOFT_SKIN_TOLERANCE, reporter);
+  met.find_arms_aside(garment);
+  met.prepare(met.ends_near(garment.position) |
+              (met.state().arms_aside ? ExtremityHulls::HANDS : 0u));
+  met.put_arms_aside();
+  const auto began = Clock::now();
+  if (!relax_softly(cloth, met, PLACED_RELAXING, settings.gravity_m_s2, reporter).finite)
+    return "placed cloth diverged";
+  report.steps += PLACED_RELAXING.steps;
+  clear_of_skin(cloth, *met.collider(), CLEARANCE * settings.contact_gap_m);
+  lay_leaves_over(cloth, LEAF_GAP);
+  report.phases.emplace_back("relax where placed", seconds_since(began));
+  report.wall_s += seconds_since(began);
+  garment = std::move(cloth);
   return "";
 }
 

@@ -28,4 +28,13 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
                                const DrapeSettings& settings, Reporter& reporter,
                                DrapeReport& report);
 
+/// Lets a garment that was placed around a body come near its rest on its own mesh, so that small
+/// differences of the placement die out.
+/// @param garment  in: sewn and placed, few millimetres in the body at most; out: near its rest
+/// @param report  in and out: steps, phases
+/// @return why it failed, and the garment is as it came; empty: done
+std::string relax_where_placed(Garment& garment, const body::Body& body,
+                               const DrapeSettings& settings, Reporter& reporter,
+                               DrapeReport& report);
+
 } // namespace sloper::garment

@@ -9,6 +9,7 @@
 #include <sloper/pattern/place/place_panels.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace sloper::garment {
 
@@ -58,31 +59,68 @@ public:
     const Garment placed = m_retargeted.garment;
     const bool tangled = m_retargeted.is_tangled;
     m_retargeted.is_tangled = false;
-    const bool panels_first =
-        tangled && !m_retargeted.has_folded_sleeves && make_panels(placed).empty();
-    DrapeReport report = panels_first ? sew_anew(placed, "the placed garment crosses body or cloth")
-                                      : drape_placed();
-    m_used_s = report.wall_s;
-    if (is_done(report, tangled) || is_out_of_time())
-      return report;
-    Garment of_first = std::move(m_retargeted.garment);
-    if (panels_first) {
-      m_retargeted.garment = placed;
+    DrapeReport relaxing;
+    if (relax(relaxing)) {
+      DrapeReport report = drape_relaxed(relaxing);
+      return is_enough(report, tangled) ? report : start_again(placed, std::move(report), true);
+    }
+    if (tangled && !m_retargeted.has_folded_sleeves && make_panels(placed).empty()) {
+      DrapeReport report = sew_anew(placed, "the placed garment crosses body or cloth");
+      if (is_enough(report, tangled))
+        return report;
+      Garment of_first = std::exchange(m_retargeted.garment, placed);
       return better(std::move(report), std::move(of_first), drape_placed(), true);
     }
-    if (const std::string why = make_panels(placed); !why.empty()) {
-      m_retargeted.garment = std::move(of_first);
-      report.repairs.push_back("not sewn anew: " + why);
-      return report;
-    }
-    DrapeReport anew =
-        sew_anew(placed, report.converged ? "the placed garment does not fit" : stop_text(report));
-    return better(std::move(report), std::move(of_first), std::move(anew), false);
+    DrapeReport report = drape_placed();
+    return is_enough(report, tangled) ? report : start_again(placed, std::move(report), false);
   }
 
 private:
+  /// @return false where the garment cannot be relaxed softly, and is as it was placed
+  bool relax(DrapeReport& report) {
+    if (m_retargeted.has_folded_sleeves)
+      return false; // their ends would creep over the hands
+    return relax_where_placed(m_retargeted.garment, m_from.body, m_settings, m_reporter, report)
+        .empty();
+  }
+
+  bool is_enough(const DrapeReport& report, bool tangled) {
+    m_used_s = report.wall_s;
+    return is_done(report, tangled) || is_out_of_time();
+  }
+
+  /// The second start after one from where the garment was placed: sewn anew from its panels; where
+  /// that cannot be, as it was placed if the first was relaxed.
+  DrapeReport start_again(const Garment& placed, DrapeReport first, bool was_relaxed) {
+    Garment of_first = std::move(m_retargeted.garment);
+    const std::string why = make_panels(placed);
+    if (why.empty()) {
+      DrapeReport anew =
+          sew_anew(placed, first.converged ? "the placed garment does not fit" : stop_text(first));
+      return better(std::move(first), std::move(of_first), std::move(anew), false);
+    }
+    first.repairs.push_back("not sewn anew: " + why);
+    if (!was_relaxed) {
+      m_retargeted.garment = std::move(of_first);
+      return first;
+    }
+    m_retargeted.garment = placed;
+    return better(std::move(first), std::move(of_first), drape_placed(), false);
+  }
+
   DrapeReport drape_placed() {
     return drape(m_retargeted.garment, &m_from.body, settings_left(), m_reporter, m_request);
+  }
+
+  /// @param relaxing  what brought the garment near its rest
+  DrapeReport drape_relaxed(const DrapeReport& relaxing) {
+    DrapeRequest request = m_request;
+    request.carried = true;
+    request.start.around_body = true;
+    DrapeReport report =
+        drape(m_retargeted.garment, &m_from.body, settings_left(), m_reporter, request);
+    add_earlier(relaxing, report);
+    return report;
   }
 
   std::string make_panels(const Garment& placed) {

@@ -112,3 +112,17 @@ TEST_F(ASkirtOnAnotherFigure, whose_panels_do_not_sew_whole_is_left_as_it_was_pl
   EXPECT_EQ(retargeted.garment.particle_of, s_skirt->particle_of);
   EXPECT_EQ(retargeted.garment.position, before);
 }
+
+TEST_F(ASkirtOnAnotherFigure, whose_placing_differs_by_a_micrometre_comes_to_the_same_rest) {
+  Retargeted one = placed(RetargetMode::KEEP_FABRIC), other = one;
+  Random random(1);
+  for (Vec3& p : other.garment.position)
+    for (int k = 0; k < 3; ++k)
+      p[k] += random.uniform(-1e-6, 1e-6);
+  EXPECT_TRUE(drape_it(one, RetargetMode::KEEP_FABRIC).converged);
+  EXPECT_TRUE(drape_it(other, RetargetMode::KEEP_FABRIC).converged);
+  double sum = 0;
+  for (std::size_t i = 0; i < one.garment.position.size(); ++i)
+    sum += (one.garment.position[i] - other.garment.position[i]).squaredNorm();
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(one.garment.position.size())), 0.001);
+}
