@@ -409,12 +409,31 @@ std::string format_of(const std::string& path, std::string_view bytes) {
   return head.substr(0, 5) == "solid" ? "stl" : "xyz";
 }
 
+/// Files that people take for a scan, by their first bytes.
+void refuse_other_kinds(const std::string& path, std::string_view bytes) {
+  struct Kind {
+    std::string_view begins, what, next_step;
+  };
+  using namespace std::string_view_literals;
+  static constexpr Kind KINDS[] = {
+      {"\x89PNG"sv, "is a PNG picture", EXPECTED},
+      {"\xFF\xD8\xFF"sv, "is a JPEG picture", EXPECTED},
+      {"%PDF"sv, "is a PDF", EXPECTED},
+      {"PK\x03\x04"sv, "is a ZIP archive", "unpack it, and give the scan inside"},
+      {"\x1F\x8B"sv, "is compressed with gzip", "unpack it, and give the scan inside"}};
+  for (const Kind& kind : KINDS)
+    if (bytes.substr(0, kind.begins.size()) == kind.begins)
+      throw input_error("scan.other-kind"_id, path, "", std::string(kind.what),
+                        std::string(kind.next_step));
+}
+
 } // namespace
 
 Scan read_scan(const std::string& path, SkinPose pose) {
   const std::string bytes = read_file(path);
   if (bytes.empty())
     throw input_error("file.empty"_id, path, "", "is empty", EXPECTED);
+  refuse_other_kinds(path, bytes);
   Scan scan;
   scan.format = format_of(path, bytes);
   scan.sha256 = sha256(bytes);

@@ -3,6 +3,7 @@
 #include <sloper/base/error.hpp>
 #include <sloper/io/obj.hpp>
 #include <sloper/io/scan_reader.hpp>
+#include <support/scratch_folder.hpp>
 
 #include <cstdio>
 #include <cstring>
@@ -328,4 +329,14 @@ TEST(ScanReader, zeros_after_the_text_of_an_obj_are_padding) {
 
 TEST(ScanReader, a_missing_file_is_bad_input) {
   complaint([] { read_scan("no/such/scan.obj"); });
+}
+
+TEST(ScanReader, a_picture_or_a_packed_file_is_named_for_what_it_is) {
+  const sloper::test::ScratchFolder folder;
+  const auto fact = [&](const std::string& bytes) {
+    sloper::test::put(folder / "scan.obj", bytes + std::string(64, '\0'));
+    return complaint([&] { read_scan(folder / "scan.obj"); });
+  };
+  EXPECT_NE(fact("\x89PNG\r\n").find("is a PNG picture"), std::string::npos);
+  EXPECT_NE(fact("PK\x03\x04").find("unpack it"), std::string::npos);
 }
