@@ -219,10 +219,7 @@ std::string relax_where_placed(Garment& garment, const body::Body& body,
     return why;
   Garment cloth = garment;
   CollisionBody met(&body, SOFT_SKIN_TOLERANCE, reporter);
-  met.find_arms_aside(garment);
-  met.prepare(met.ends_near(garment.position) |
-              (met.state().arms_aside ? ExtremityHulls::HANDS : 0u));
-  met.put_arms_aside();
+  met.prepare(met.ends_near(garment.position));
   const auto began = Clock::now();
   if (!relax_softly(cloth, met, PLACED_RELAXING, settings.gravity_m_s2, reporter).finite)
     return "placed cloth diverged";

@@ -62,9 +62,21 @@ char side_of(const std::string& part, const std::string& limb) {
   return part == limb + "_r" ? 2 : 0;
 }
 
+/// Of a garment that was worn: the leg that holds most of a particle, as leg_sides().
+std::vector<char> leg_sides_of(const Bind& bind) {
+  std::vector<char> side(bind.particles.size(), 0);
+  for (std::size_t i = 0; i < side.size(); ++i)
+    for (const BindWeight& w : bind.particles[i])
+      if (w.weight > 0.5)
+        side[i] = side_of(bind.frames[w.frame], "leg");
+  return side;
+}
+
 /// Which trouser leg each particle belongs to: 1 left, 2 right, 0 none, and none where both are
 /// joined.
 std::vector<char> leg_sides(const Garment& garment) {
+  if (!garment.bind.empty())
+    return leg_sides_of(garment.bind);
   std::vector<char> side(garment.position.size(), 0), joins(garment.position.size(), 0);
   for (const pattern::PanelInfo& p : garment.panels.panels) {
     const char now = side_of(p.part, "leg");

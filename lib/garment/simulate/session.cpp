@@ -81,7 +81,9 @@ void DrapeSession::start_outside_body(bool unsewn) {
   const PhaseTimer timer(m_context.telemetry, "prepare body");
   const Garment& garment = m_context.cloth.garment();
   const bool sewn_on_legs = unsewn && !placed_on(garment, "leg").empty();
-  if ((unsewn || m_start.around_body) && m_context.cloth.is_active("body_contact"))
+  // A garment that was worn before is placed beside the arms as they are.
+  const bool from_panels = unsewn || (m_start.around_body && garment.bind.empty());
+  if (from_panels && m_context.cloth.is_active("body_contact"))
     body.find_arms_aside(garment);
   body.prepare(body.ends_near(garment.position) |
                (body.state().arms_aside ? ExtremityHulls::HANDS : 0u));
