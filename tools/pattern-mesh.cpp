@@ -196,8 +196,9 @@ int run(cli::Tool& tool, const Options& o) {
     return o.check ? check(tool, source, o) : 0;
   }
   const bool may_lack_seams = source.source_format == "dxf" || source.source_format == "clo";
-  if (source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn &&
-      !guess_seams(tool, source, !o.pieces.empty()))
+  const bool guessed =
+      source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn;
+  if (guessed && !guess_seams(tool, source, !o.pieces.empty()))
     return 1;
   if (o.output.empty())
     throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",
@@ -260,8 +261,8 @@ int run(cli::Tool& tool, const Options& o) {
         "the panels cannot start so: " + impossible.front(),
         "name the pieces for what they are, or say where they go with a hint (\"place\"); " +
             o.output + " shows where they lie");
-  // A drawing states no seams: they were guessed or answered, and one was missed.
-  if (half_sewn && may_lack_seams && !o.unsewn)
+  // A drawing that states no seams: they were guessed or answered, and one was missed.
+  if (half_sewn && (guessed || !o.sewing.empty()))
     throw Error(ErrorKind::FAILED, "pattern.half-sewn"_id, o.pattern, "", half_sewn->text,
                 "name the seam in --sewing, or cut the piece where a line of its drawing ends; " +
                     o.output + " is written as it is");
