@@ -79,10 +79,13 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
 }
 
 /// Findings of a pattern that can be sewn nevertheless, into the mesh and as warnings.
-void tell_faults(cli::Tool& tool, const pattern::Pattern& source, pattern::PanelMesh& mesh) {
+/// @returns the first edge that is left open though the seams about it say that it goes on
+std::optional<Message> tell_faults(cli::Tool& tool, const pattern::Pattern& source,
+                                   pattern::PanelMesh& mesh) {
   std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
   const std::vector<pattern::PatternFinding> open = pattern::half_sewn(source, mesh);
   findings.insert(findings.end(), open.begin(), open.end());
+  std::optional<Message> half_sewn;
   for (const pattern::PatternFinding& f : findings) {
     // A pattern of our own may hold pieces of their own; the other formats are of one garment.
     const bool unsewn = f.rule == "unsewn-panel" && f.severity == "warning" &&
@@ -95,7 +98,10 @@ void tell_faults(cli::Tool& tool, const pattern::Pattern& source, pattern::Panel
                                 : Message{"pattern.sewn-despite-fault"_id, f.place + ": " + f.fact};
     mesh.findings.push_back(message);
     tool.reporter().warning(message);
+    if (f.rule == "half-sewn" && !half_sewn)
+      half_sewn = message;
   }
+  return half_sewn;
 }
 
 /// The pattern as read (and edited), in the format of the file name's ending.
@@ -203,8 +209,9 @@ int run(cli::Tool& tool, const Options& o) {
     return 1;
   }
   const bool may_lack_seams = source.source_format == "dxf" || source.source_format == "clo";
-  if (source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn &&
-      !guess_seams(tool, source, !o.pieces.empty()))
+  const bool guessed =
+      source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn;
+  if (guessed && !guess_seams(tool, source, !o.pieces.empty()))
     return 1;
   if (o.output.empty())
     throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",
@@ -230,7 +237,7 @@ int run(cli::Tool& tool, const Options& o) {
   }
   if (!o.write_pattern.empty())
     write_pattern(tool, source, o.write_pattern);
-  tell_faults(tool, source, mesh);
+  const std::optional<Message> half_sewn = tell_faults(tool, source, mesh);
   std::vector<std::string> impossible;
   if (o.body.empty())
     pattern::lay_flat(source, mesh);
@@ -267,6 +274,11 @@ int run(cli::Tool& tool, const Options& o) {
         "the panels cannot start so: " + impossible.front(),
         "name the pieces for what they are, or say where they go with a hint (\"place\"); " +
             o.output + " shows where they lie");
+  // A drawing that states no seams: they were guessed or answered, and one was missed.
+  if (half_sewn && (guessed || !o.sewing.empty()))
+    throw Error(ErrorKind::FAILED, "pattern.half-sewn"_id, o.pattern, "", half_sewn->text,
+                "name the seam in --sewing, or cut the piece where a line of its drawing ends; " +
+                    o.output + " is written as it is");
   return 0;
 }
 

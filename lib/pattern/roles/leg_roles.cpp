@@ -1,5 +1,7 @@
+#include <pattern/measure/cloth_rims.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/roles/leg_roles.hpp>
+#include <pattern/seams/missing_seams.hpp>
 
 #include <algorithm>
 
@@ -230,6 +232,28 @@ bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
 void assign_legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
                  std::vector<PanelRole>& roles) {
   Legs(pattern, mesh, graph, roles).run();
+}
+
+bool more_rims_than_trousers(const Pattern& pattern, const PanelMesh& mesh,
+                             const std::vector<ShapeRole>& shapes) {
+  constexpr double SHORTEST = 0.15; // m: slits and holes of darts are shorter, sleeves longer
+  constexpr int OF_TROUSERS = 3;
+  for (const ShapeRole& shape : shapes)
+    if (shape.part == TORSO_PART || shape.part == LOWER_BODY_PART)
+      return false;
+  for (const std::vector<int>& part : sewn_parts(pattern)) {
+    const auto has = [&](int p) { return std::find(part.begin(), part.end(), p) != part.end(); };
+    const bool legs =
+        std::any_of(part.begin(), part.end(), [&](int p) { return shapes[p].part == LEG_PART; });
+    if (!legs)
+      continue;
+    int rims = 0;
+    for (const ClothRim& rim : cloth_rims(mesh))
+      rims += rim.length > SHORTEST && has(panel_of_vertex(mesh, rim.vertices[0].leaving));
+    if (rims > OF_TROUSERS)
+      return true;
+  }
+  return false;
 }
 
 } // namespace sloper::pattern

@@ -1,6 +1,7 @@
 #pragma once
 /// Which panels go around a leg: PanelRole::part leg_l or leg_r.
 #include <pattern/roles/panel_role.hpp>
+#include <pattern/roles/shape_roles.hpp>
 #include <pattern/seam_graph.hpp>
 #include <sloper/pattern/pattern.hpp>
 
@@ -20,5 +21,11 @@ bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
 /// flounces.
 void assign_legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
                  std::vector<PanelRole>& roles);
+
+/// Whether what was taken for legs, with nothing on the trunk, ends in more rims than trousers,
+/// which have a waist and two hems: a shirt of four pieces has neck, hem and two sleeves or
+/// armholes. Its neck curves look like a crotch.
+bool more_rims_than_trousers(const Pattern& pattern, const PanelMesh& mesh,
+                             const std::vector<ShapeRole>& shapes);
 
 } // namespace sloper::pattern

@@ -246,6 +246,9 @@ private:
     if (unnamed.empty() || m_pattern.seams.empty())
       return;
     std::vector<ShapeRole> shapes = shape_roles(m_pattern);
+    if (more_rims_than_trousers(m_pattern, m_mesh, shapes))
+      shapes = shape_roles(m_pattern, role_model(), false);
+    collars_are_no_arms(shapes);
     const std::vector<bool> leg_end = follow_limbs(m_mesh, m_graph, shapes);
     double faces = 0; // for and against the shapes' front and back
     for (std::size_t k = 0; k < m_roles.size(); ++k)
@@ -280,6 +283,30 @@ private:
         role.part = hand > 0 ? "leg_l" : "leg_r";
       else
         role.part = part == "torso" ? "torso" : "lower_body";
+    }
+  }
+
+  /// What is sewn to both halves of a front or back goes around the neck: no sleeve does.
+  void collars_are_no_arms(std::vector<ShapeRole>& shapes) const {
+    for (std::size_t first = 0; first < shapes.size(); ++first) {
+      if (shapes[first].part != ARM_PART || closed_sleeve(first))
+        continue;
+      std::vector<std::size_t> ring{first};
+      bool left = false, right = false;
+      for (std::size_t k = 0; k < ring.size(); ++k)
+        for (const int q : m_graph.neighbours(static_cast<int>(ring[k]))) {
+          const std::size_t other = static_cast<std::size_t>(q);
+          if (shapes[other].part == ARM_PART && !closed_sleeve(other)) {
+            if (std::find(ring.begin(), ring.end(), other) == ring.end())
+              ring.push_back(other);
+          } else if (shapes[other].part == TORSO_PART && !shapes[other].back) {
+            left = left || shapes[other].hand > 0;
+            right = right || shapes[other].hand < 0;
+          }
+        }
+      if (left && right)
+        for (const std::size_t k : ring)
+          shapes[k].part = NECK_PART;
     }
   }
 

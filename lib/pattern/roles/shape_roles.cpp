@@ -50,13 +50,16 @@ private:
   std::vector<bool> m_turned;
 };
 
-Parts look(const ShapeWitness& witness, const std::vector<SeamTrees>& trees, const Parts* before) {
+Parts look(const ShapeWitness& witness, const std::vector<SeamTrees>& trees, const Parts* before,
+           bool legs) {
   Parts out(witness.count());
   for (std::size_t k = 0; k < witness.count(); ++k) {
     const Evidence evidence = before ? witness.panel(k, *before) : witness.panel(k);
     double most = -1e300, sum = 0;
     for (std::size_t c = 0; c < SHAPE_PARTS; ++c) {
       out[k][c] = trees[c](evidence);
+      if (c == LEG_PART && !legs)
+        out[k][c] = -1e300;
       most = std::max(most, out[k][c]);
     }
     for (double& x : out[k]) {
@@ -233,10 +236,10 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
   }
 }
 
-std::vector<ShapeRole> shape_roles(const Pattern& pattern, const RoleModel& model) {
+std::vector<ShapeRole> shape_roles(const Pattern& pattern, const RoleModel& model, bool legs) {
   const ShapeWitness witness(pattern);
-  Parts parts = look(witness, model.parts[0], nullptr);
-  parts = look(witness, model.parts[1], &parts);
+  Parts parts = look(witness, model.parts[0], nullptr, legs);
+  parts = look(witness, model.parts[1], &parts, legs);
   std::vector<ShapeRole> roles(witness.count());
   for (std::size_t k = 0; k < roles.size(); ++k) {
     const auto best = std::max_element(parts[k].begin(), parts[k].end());

@@ -66,7 +66,9 @@ private:
 };
 
 /// @param pattern  with its seams
-std::vector<ShapeRole> shape_roles(const Pattern& pattern, const RoleModel& model = role_model());
+/// @param legs  whether there may be legs at all (see more_rims_than_trousers())
+std::vector<ShapeRole> shape_roles(const Pattern& pattern, const RoleModel& model = role_model(),
+                                   bool legs = true);
 
 /// Which panels are on the same face of the garment: of each panel a root panel that it is compared
 /// with, and whether it is on the other face than that.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace sloper::pattern {
@@ -130,7 +131,13 @@ public:
       : m_pattern(pattern), m_sides(seam_sides(pattern, corners, SHORTEST)),
         m_witness(pattern, m_sides), m_assembly(m_witness, NamesSay(pattern, m_sides).all()) {
     m_result =
-        as_one_garment(pattern, m_sides, m_assembly.run(seam_model()), CERTAIN, WORTH_ASKING);
+        as_one_garment(pattern, m_sides, m_assembly.run(seam_model()), CERTAIN, WORTH_ASKING, {});
+  }
+
+  /// Changes what is not sure to what looks most like a garment as a whole.
+  void climb() {
+    m_result = as_one_garment(m_pattern, m_sides, std::move(m_result), CERTAIN, WORTH_ASKING,
+                              seam_model().whole);
   }
 
   std::vector<SeamGuess> guesses() const {
@@ -289,7 +296,6 @@ double sewn_surely(const Pattern& pattern, const std::vector<SeamGuess>& guesses
 std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   const SideCorners all = all_corners(pattern),
                     sharp = sharp_corners(pattern, units::radians(STRAIGHT_ON));
-  const Inference edges(pattern, all);
   const auto completed = [&](std::vector<SeamGuess> guesses) {
     settle_by_order(pattern, guesses);
     const std::vector<Seam> continued = continue_seams(pattern, guesses);
@@ -298,13 +304,32 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
     close_slivers(pattern, guesses);
     return guesses;
   };
-  std::vector<SeamGuess> by_edges = completed(edges.guesses());
-  if (sharp == all)
-    return with_gore_rows(pattern, std::move(by_edges));
-  // Judged with their sleeves, collars and bands: a cap is found where sides are whole.
-  std::vector<SeamGuess> by_sides = completed(Inference(pattern, sharp).guesses());
-  const bool whole_sides = sewn_surely(pattern, by_sides) > sewn_surely(pattern, by_edges);
-  return with_gore_rows(pattern, std::move(whole_sides ? by_sides : by_edges));
+  auto best = std::make_unique<Inference>(pattern, all);
+  std::vector<SeamGuess> guesses = completed(best->guesses());
+  if (sharp != all) {
+    // Judged with their sleeves, collars and bands: a cap is found where sides are whole.
+    auto by_sides = std::make_unique<Inference>(pattern, sharp);
+    std::vector<SeamGuess> whole = completed(by_sides->guesses());
+    if (sewn_surely(pattern, whole) > sewn_surely(pattern, guesses)) {
+      guesses = std::move(whole);
+      best = std::move(by_sides);
+    }
+  }
+  std::vector<SeamGuess> rows = with_gore_rows(pattern, guesses);
+  const auto same = [](const SeamGuess& a, const SeamGuess& b) {
+    return a.seam.name == b.seam.name;
+  };
+  if (!std::equal(rows.begin(), rows.end(), guesses.begin(), guesses.end(), same))
+    return rows; // gores that nothing tells apart but their order
+  // What looks more like a garment is taken where sleeves and bands then are as sure as before.
+  best->climb();
+  std::vector<SeamGuess> climbed = completed(best->guesses());
+  const auto certain = [](const std::vector<SeamGuess>& found) {
+    return std::count_if(found.begin(), found.end(), [](const SeamGuess& g) { return g.certain; });
+  };
+  if (certain(climbed) < certain(guesses))
+    return rows;
+  return with_gore_rows(pattern, std::move(climbed));
 }
 
 std::vector<std::string> panels_apart(const Pattern& pattern) {

@@ -30,6 +30,8 @@ SeamModel read_model() {
     model.looks.push_back(read_trees(look));
   model.settle = read_trees(json.at("settle"));
   model.judge = read_trees(json.at("judge"));
+  if (json.contains("whole"))
+    model.whole = json.at("whole").get<std::vector<double>>();
   return model;
 }
 

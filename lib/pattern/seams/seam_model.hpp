@@ -29,6 +29,7 @@ struct SeamModel {
   std::vector<SeamTrees> looks; ///< one after the other; only the first does without odds of others
   SeamTrees settle;             ///< while pairs are settled one after the other
   SeamTrees judge;              ///< of a pair among all that were settled
+  std::vector<double> whole;    ///< weights of the clues of whole assemblies; may be empty
 };
 
 /// The model that is shipped.

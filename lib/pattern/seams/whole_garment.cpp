@@ -1,3 +1,4 @@
+#include <pattern/seams/garment_search.hpp>
 #include <pattern/seams/rims.hpp>
 #include <pattern/seams/whole_garment.hpp>
 
@@ -23,6 +24,7 @@ constexpr double LEAST_SLIT = 0;       // of two sides that follow one another o
 constexpr double SLIT_SIDES = 0.01;    // logarithm: the two sides of a slit
 constexpr std::size_t FEWEST_RIMS = 2; // of a garment: it has to be put on
 constexpr std::size_t MOST_SIDES = 24; // of a rim that is tried
+constexpr double LEAST_GAIN = 0.5;     // of the score of the whole, by which it is changed
 constexpr double SLIVER = 0.015;       // m around
 constexpr double SLIVER_SCORE = 0.9;
 
@@ -38,11 +40,13 @@ public:
     std::sort(m_pairs.begin(), m_pairs.end(), surer);
   }
 
-  SeamAssembly::Result run() {
+  SeamAssembly::Result run(const std::vector<double>& weights) {
     exchange();
     take_handles_back();
     while (merge_rims() || join_parts()) {}
     while (zip()) {}
+    if (!weights.empty())
+      improve(weights);
     m_found.pairs.clear();
     for (const Sewn& s : m_pairs)
       m_found.pairs[s.pair] = s.odds;
@@ -259,6 +263,29 @@ private:
     return best.has_value();
   }
 
+  /// Climbs to what looks most like a garment; what is sure stays.
+  void improve(const std::vector<double>& weights) {
+    Matching partner(m_sides.size(), -1);
+    std::vector<char> fixed(m_sides.size(), 0);
+    PairOdds known;
+    for (const Sewn& s : m_pairs) {
+      known[s.pair] = s.odds;
+      partner[s.pair[0]] = s.pair[1];
+      partner[s.pair[1]] = s.pair[0];
+      fixed[s.pair[0]] = fixed[s.pair[1]] = s.odds >= m_sure;
+    }
+    const GarmentView view(m_pattern, m_sides, m_found.base);
+    const GarmentSearch search(m_pattern, m_sides, view, std::move(fixed));
+    partner = search.climb(std::move(partner), weights, LEAST_GAIN);
+    m_pairs.clear();
+    for (int i = 0; i < std::ssize(partner); ++i)
+      if (partner[i] > i) {
+        const auto at = known.find({i, partner[i]});
+        m_pairs.push_back({{i, partner[i]}, at == known.end() ? ASKED : at->second});
+      }
+    std::sort(m_pairs.begin(), m_pairs.end(), surer);
+  }
+
   const Pattern& m_pattern;
   const std::vector<SeamSide>& m_sides;
   SeamAssembly::Result m_found;
@@ -269,8 +296,9 @@ private:
 } // namespace
 
 SeamAssembly::Result as_one_garment(const Pattern& pattern, const std::vector<SeamSide>& sides,
-                                    SeamAssembly::Result found, double sure, double doubtful) {
-  return Whole(pattern, sides, std::move(found), sure, doubtful).run();
+                                    SeamAssembly::Result found, double sure, double doubtful,
+                                    const std::vector<double>& weights) {
+  return Whole(pattern, sides, std::move(found), sure, doubtful).run(weights);
 }
 
 void close_slivers(const Pattern& pattern, std::vector<SeamGuess>& guesses) {

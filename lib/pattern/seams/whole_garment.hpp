@@ -14,9 +14,11 @@ namespace sloper::pattern {
 /// @param sure  log-odds from which a pair stays whatever the others are
 /// @param doubtful  log-odds below which a pair is no answer: it stays only among what is known of
 ///        each pair
+/// @param weights  of garment_score(), by which the whole is improved in the end; none: it is not
 /// @returns the pairs, no side twice; what was sewn here has the log-odds of a question
 SeamAssembly::Result as_one_garment(const Pattern& pattern, const std::vector<SeamSide>& sides,
-                                    SeamAssembly::Result found, double sure, double doubtful);
+                                    SeamAssembly::Result found, double sure, double doubtful,
+                                    const std::vector<double>& weights);
 
 /// Sews what is left open between two edges that are too short for sides, as chamfers are. No body
 /// goes through a hole of a centimetre. As sure as the seams that leave it.

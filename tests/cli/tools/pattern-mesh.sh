@@ -106,4 +106,20 @@ EOF
   "$(dirname "$program")/drape" -q --body a.body.json --panels out.json --accuracy draft --set max_steps=5 \
     --report open.report.json -o worn.json || true # 5 steps are too few
   grep -q '"pattern.half-sewn"' open.report.json || fail "the drape does not say so"
+  # The same as a drawing whose seams were answered: one was missed.
+  python3 - open.json << 'EOF'
+import json, sys
+document = json.load(open(sys.argv[1]))
+def runs(side, along):  # without a direction the second side is met against its outline
+    ahead = lambda r: r.get("from", 0) < r.get("to", 1) if "from" in r else along
+    return [{"panel": r["panel"], "run": r["edge"], "dir": "+" if ahead(r) else "-"} for r in side]
+seams = [{"name": s["name"], "kind": s.get("kind", "seam"), "a": runs(s["a"], True),
+          "b": runs(s["b"], False)} for s in document["seams"]]
+json.dump({"format": "sewing-seams", "version": 1, "seams": seams}, open("seams.json", "w"))
+json.dump(dict(document, seams=[]), open("drawn.json", "w"))
+EOF
+  run 0 "$program" -q --write-pattern drawn.dxf drawn.json
+  run 4 "$program" --edge-length 0.05 --sewing seams.json -o answered.json drawn.dxf
+  says "is one sewn to the other?"
+  [[ -s answered.json ]] || fail "not written"
 }

@@ -1,8 +1,10 @@
 /// Pieces of which names tell little: codes, kinds, turns and what is sewn to what say the rest.
 #include <support/placement_patterns.hpp>
+#include <support/straight_patterns.hpp>
 
 #include <gtest/gtest.h>
 #include <pattern/panel_words.hpp>
+#include <pattern/roles/leg_roles.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
 
 namespace sloper::pattern::test {
@@ -411,6 +413,33 @@ TEST(PlacementUnnamed, TheKindOfPieceTellsWhereACodeDoesNot) {
   EXPECT_TRUE(says_back(words_of(pattern, 1)));
   EXPECT_FALSE(name_suggests_front(words_of(pattern, 1)));
   EXPECT_TRUE(says_back(words_of(pattern, 2)));
+}
+
+/// A shirt whose halves have straight middles and hollow necks, as trousers have crotches.
+TEST(PlacementUnnamed, WhatHasMoreRimsThanTrousersHasNoLegs) {
+  DrawnPattern shirt, trousers;
+  shirt.quarters({{"hem", 26, 0},
+                  {"side", 25, 44},
+                  {"armhole", 24, 66},
+                  {"shoulder", 9, 72},
+                  {"neck", 0, 60},
+                  {"middle", 0, 0}},
+                 {"side", "shoulder"}, {"middle"});
+  trousers.quarters(
+      {{"hem", 24, 0}, {"side", 26, 100}, {"waist", 4, 102}, {"crotch", -6, 72}, {"inseam", 0, 0}},
+      {"side", "inseam"}, {"crotch"});
+  for (const bool top : {true, false}) {
+    const Pattern pattern = top ? shirt.pattern() : trousers.pattern();
+    std::vector<ShapeRole> legs(pattern.panels.size());
+    for (ShapeRole& role : legs)
+      role.part = LEG_PART;
+    const PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+    EXPECT_EQ(more_rims_than_trousers(pattern, mesh, legs), top);
+    legs[0].part = TORSO_PART;
+    EXPECT_FALSE(more_rims_than_trousers(pattern, mesh, legs)) << "overalls have all of them";
+    for (const ShapeRole& role : shape_roles(pattern, role_model(), false))
+      EXPECT_NE(role.part, LEG_PART);
+  }
 }
 
 } // namespace

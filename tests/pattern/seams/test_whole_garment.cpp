@@ -49,7 +49,7 @@ struct Rectangles {
     settle(p, 1, q, 3, odds);
     settle(p, 3, q, 1, odds);
   }
-  PairOdds whole() const { return as_one_garment(pattern, sides, found, SURE, DOUBTFUL).pairs; }
+  PairOdds whole() const { return as_one_garment(pattern, sides, found, SURE, DOUBTFUL, {}).pairs; }
   static bool has(const PairOdds& pairs, int p, int e, int q, int f) {
     const int i = side(p, e), j = side(q, f);
     return pairs.count({std::min(i, j), std::max(i, j)}) > 0;
