@@ -143,6 +143,15 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
                   [&](const Triangle& t) { return (mesh.positions[t[0]] - middle).norm() < 0.02; }),
               f.end());
     }
+  } else if (kind == "open") { // a scan that is cut at neck and knees: no faces at its ends
+    const auto lower = [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); };
+    const auto [low, high] =
+        std::minmax_element(mesh.positions.begin(), mesh.positions.end(), lower);
+    const int ends[] = {static_cast<int>(low - mesh.positions.begin()),
+                        static_cast<int>(high - mesh.positions.begin())};
+    std::erase_if(f, [&](const Triangle& t) {
+      return std::any_of(t.begin(), t.end(), [&](int v) { return v == ends[0] || v == ends[1]; });
+    });
   } else if (kind == "noise") {
     jitter(mesh.positions, 0.002, seed + 1);
   } else if (kind == "flipped") {

@@ -67,8 +67,8 @@ private:
 TriangleMesh make_body_mesh(const Parameters& p);
 /// With what a drape asks of a body: parts and the landmarks of its axis.
 body::Body make_body(TriangleMesh mesh);
-/// What scanners do: "holes", "noise", "flipped", "debris", "duplicates", "cracks", "zero_area",
-/// "none".
+/// What scanners do: "holes", "open" (no faces at the upper and lower end), "noise", "flipped",
+/// "debris", "duplicates", "cracks", "zero_area", "none".
 void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed);
 
 Outcome fault_scene(const Parameters& p,

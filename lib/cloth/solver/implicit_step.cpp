@@ -263,17 +263,18 @@ static std::vector<double>::iterator percentile_95(std::vector<double>& values) 
 }
 
 /// A particle stuck in a pinch bends the step away from where the energy falls, or is pressed there
-/// harder than all others, and the line search then stops all the cloth for its sake. It is kept in
-/// place for a while, longer each time, while the rest goes on. With momentum, which lets energy
-/// rise, only what limits hold: there the rest comes no sooner for the others.
-void ClothSolver::block_held_particles(bool search_failed, bool momentum) {
+/// harder than all others. It is kept in place for a while, longer each time, while the rest goes
+/// on. With momentum, which lets energy rise, only what limits hold: the rest comes no sooner for
+/// others. Where tension draws all cloth, all of it slides, and blocking would only delay it.
+void ClothSolver::block_held_particles(bool search_failed, const StepOptions& o) {
   double wedged2 = std::numeric_limits<double>::infinity();
-  if (search_failed && !momentum) {
+  if (search_failed && !o.momentum) {
     m_residual.clear();
     for (const Vec3& f : m_force)
       m_residual.push_back(f.squaredNorm());
-    wedged2 =
-        OUTLIER * OUTLIER * std::max(*percentile_95(m_residual), m_mean_weight * m_mean_weight);
+    const double p95 = *percentile_95(m_residual);
+    wedged2 = OUTLIER * OUTLIER * std::max(p95, m_mean_weight * m_mean_weight);
+    search_failed = std::sqrt(p95) <= o.blocking_force_ratio * m_mean_weight;
   }
   for (std::size_t i = 0; i < m_held.size(); ++i) {
     if (m_blocked_for[i] > 0) {
@@ -298,10 +299,9 @@ std::array<double, 2> ClothSolver::measure_rhs() {
   return {*percentile_95(m_residual), all};
 }
 
-/// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a
-/// residual relative to theirs would leave the others where they are, for hundreds of steps. There
-/// they count as outliers, and the tolerance is relative to the rest, but not so tight that it asks
-/// for more than rest does.
+/// Near rest a few particles in a pinch can have a thousand times the force of all others, and a
+/// residual relative to theirs would leave the others in place for hundreds of steps. They count as
+/// outliers: the tolerance is relative to the rest, but asks for no more than rest does.
 double ClothSolver::near_tolerance(const StepOptions& o,
                                    const std::array<double, 2>& squares) const {
   const auto [p95, all] = squares;
@@ -464,7 +464,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     return newton_step(o, StepOptions::GUARD_SOLVES, true);
   if (o.line_search) {
     result.halvings = search_along(o);
-    block_held_particles(result.halvings > 0, o.momentum);
+    block_held_particles(result.halvings > 0, o);
     if (o.momentum)
       m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
     else

@@ -248,6 +248,7 @@ int settle_shape(std::vector<Vec3>& positions, const ShapeToSettle& cloth,
   const SparseSolver free_solver(free_system);
   SparseSolver solver;
   solver.analyse(ops.stiffness);
+  std::vector<char> was_pushed; // in the round of the factorisation
   std::vector<int> hint(n, -1);
   double largest_move = 0;
   int round = 0, best_round = 0;
@@ -273,17 +274,24 @@ int settle_shape(std::vector<Vec3>& positions, const ShapeToSettle& cloth,
       right.row(static_cast<Eigen::Index>(i)) +=
           (attraction[i] * ops.mass[static_cast<Eigen::Index>(i)] * placed[i]).transpose();
     const Field wanted = free_solver.solve(right);
-    Eigen::SparseMatrix<double> system = free_system;
+    std::vector<char> is_pushed(n, 0);
     for (std::size_t i = 0; i < n; ++i) {
       if (!pushes.active(i))
         continue;
       const auto row = static_cast<Eigen::Index>(i);
-      system.coeffRef(row, row) += push_stiffness * ops.mass[row];
+      is_pushed[i] = 1;
       right.row(row) += (push_stiffness * ops.mass[row] *
                          pushes.admitted(i, positions[i], wanted.row(row).transpose()))
                             .transpose();
     }
-    solver.factorise(system);
+    if (is_pushed != was_pushed) { // all that the matrix depends on
+      Eigen::SparseMatrix<double> system = free_system;
+      for (Eigen::Index row = 0; row < system.rows(); ++row)
+        if (is_pushed[static_cast<std::size_t>(row)])
+          system.coeffRef(row, row) += push_stiffness * ops.mass[row];
+      solver.factorise(system);
+      was_pushed = std::move(is_pushed);
+    }
     const Field solved = solver.solve(right);
     largest_move = 0;
     for (std::size_t i = 0; i < n; ++i) {

@@ -60,6 +60,9 @@ struct StepOptions {
   /// about as large as the positive ones, and steps without them are short. Saves time from 10,000
   /// particles on.
   bool full_hessian_near_rest = false;
+  /// With line_search, without momentum: nothing is blocked where the 95th percentile of the forces
+  /// is above so many mean weights.
+  double blocking_force_ratio = std::numeric_limits<double>::infinity();
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };
 
@@ -168,7 +171,7 @@ private:
   bool goes_round() const;
   int search_along(const StepOptions& options);
   void forget(); ///< drops what was learnt from earlier steps
-  void block_held_particles(bool search_failed, bool momentum);
+  void block_held_particles(bool search_failed, const StepOptions& o);
   /// Of the squares of m_rhs, by particle, which it leaves in m_residual: 95th percentile and sum,
   /// N2.
   bool assembled_finite() const;

@@ -29,6 +29,9 @@ struct StepRequest {
   bool unloaded = false;
   /// A solve leaves less of the energy's error than usual: DrapeRequest::carried.
   bool exact = false;
+  /// Of cloth that came sewn, outside the body and not from a coarser mesh: sewing has left no
+  /// pinches, so nothing is blocked where tension draws all of it.
+  bool warm = false;
   /// Lower bound of the relative residual at which the solve ends, where the settings ask
   /// for less.
   double least_cg_tolerance = 0;

@@ -113,8 +113,8 @@ void SettlePhase::look_for_drift(SimContext& context) {
   context.telemetry.reporter.info("settle step " + std::to_string(k) + ": went " +
                                   millimetres_text(drift) + " in " + std::to_string(PROBE_STEPS) +
                                   " steps");
-  if (drift < DRIFTS)
-    return;
+  if (drift < DRIFTS || context.stepper.last().residual_force_ratio > HUNG_RESIDUAL)
+    return; // the latter is drawn by its tension, which inertia would only stir
   context.cloth.solver().release_blocked_particles();
   context.cloth.solver().stop();
   m_state.dynamic_steps = DYNAMIC_STEPS;
@@ -208,10 +208,13 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
   const int k = m_state.step;
   const int unloaded = unloaded_steps(context);
   const bool dynamic = m_state.dynamic_steps > 0;
+  const cloth::BodyContactEffect* contact = context.cloth.body_contact();
+  const bool crosses = contact && contact->n_crossing() > 0; // a pinch, if any is
   StepRequest request{.h = m_state.h,
                       .kind = StepKind::DESCEND,
                       .unloaded = k < unloaded,
-                      .exact = context.carried};
+                      .exact = context.carried,
+                      .warm = !context.disturbed && !context.carried && !crosses};
   if (dynamic) {
     request.kind = StepKind::PLAIN;
     request.inertia = DYNAMIC_INERTIA;
