@@ -135,6 +135,7 @@ TEST(Dependents, legs_and_hips_rest_on_a_crotch_that_is_estimated) {
     return body.scan.findings.size() == 4;
   };
   EXPECT_TRUE(is_told("below_buttocks"));
+  EXPECT_FALSE(is_told("by_rest_of_body"));    // off by 13 mm, as the hips are by themselves
   EXPECT_FALSE(is_told("leg_sections_merge")); // seen: only from front to back in doubt
 }
 
