@@ -18,8 +18,8 @@ constexpr double RESTS_NEAR = 0.03;   ///< of stature: a landmark this near to i
 constexpr double MADE_UP_DOUBT = 0.5; ///< of the confidence
 /// What stands or falls together: one place of skin or one fold.
 const std::vector<std::vector<std::string>> SKIN_PLACES = {
-    {"axilla_l", "axilla_front_l", "axilla_back_l"},
-    {"axilla_r", "axilla_front_r", "axilla_back_r"},
+    {"axilla_l", "axilla_front_l", "axilla_back_l", "axilla_merge_l"},
+    {"axilla_r", "axilla_front_r", "axilla_back_r", "axilla_merge_r"},
     {"acromion_l"},
     {"acromion_r"},
     {"bust_point_l"},
