@@ -7,6 +7,7 @@
 #include <body/landmarks/crotch.hpp>
 #include <body/landmarks/dependents.hpp>
 #include <body/landmarks/gate.hpp>
+#include <body/landmarks/made_up_skin.hpp>
 #include <body/landmarks/second_opinion.hpp>
 #include <body/part_labels.hpp>
 #include <body/scan_findings.hpp>
@@ -163,8 +164,10 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0, in.up);
   if (phases)
     phases->done("slicing");
-  const bool crotch_moved = doubt_crotch(levels, {in.seat_points, in.rules, in.rebuilt, in.whole},
-                                         body.scan.findings, trail);
+  const CrotchEvidence evidence{in.seat_points, in.rules, in.rebuilt, in.whole};
+  CrotchSource source = doubt_crotch(levels, evidence, body.scan.findings, trail)
+                            ? CrotchSource::BUTTOCKS
+                            : CrotchSource::SKIN;
   const EdgeGraph graph(body.skin);
   const std::array<ArmTrace, 2> arms =
       trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{}, in.rules);
@@ -183,12 +186,17 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
         arm.axilla ? "found" : "not found");
     trail.push_back(line);
   }
-  const FigureClass figure = classify_figure(levels, arms, in.rules, trail);
+  FigureClass figure = classify_figure(levels, arms, in.rules, trail);
   shape = shape_features(levels, arms, figure.female);
+  const auto expected = in.corrections.extrapolated("crotch", shape, -1);
+  if (expected && expect_crotch(levels, *expected, evidence, source, body.scan.findings, trail)) {
+    figure = classify_figure(levels, arms, in.rules, trail);
+    shape = shape_features(levels, arms, figure.female);
+  }
   const Situation situation{figure.female > 0.5, body.stance_class.front(), in.rebuilt};
   const Finder finder{
-      levels, arms,      in.scan_points, in.rebuilt, crotch_moved, in.rules, in.corrections,
-      shape,  situation, figure,         body,       trail,        in.s};
+      levels, arms,      in.scan_points, in.rebuilt, source, in.rules, in.corrections,
+      shape,  situation, figure,         body,       trail,  in.s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);
@@ -386,6 +394,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     phases.done("spread");
   else
     result.trail.push_back("spread: not measured, the usual one of each rule is given");
+  if (!skin.whole && !is_torso)
+    doubt_made_up_skin(body, scan_points, shape_points);
   doubt_dependents(body, options.corrections->strangeness(result.features));
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part =

@@ -32,31 +32,126 @@ Span chest_half(const Finder& f, int side) {
   return half_front(side, BESIDE_MIDDLE_M, f.number("bust.chest_end") * f.s);
 }
 
+using BumpPair = std::array<ReliefPoint, 2>; ///< of the left and the right side
+
 /// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be:
 /// near the foremost skin of its side, and about the height that the rest of the body lets expect.
-bool is_nipple_pair(const Finder& f, double expected) {
-  const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
-  if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump"))
+bool is_nipple_pair(const Finder& f, const BumpPair& pair, double expected) {
+  const auto& [l, r] = pair;
+  if (std::min(l.height, r.height) <= f.number("bust.bump"))
     return false;
-  if (std::abs(l->p.y() - r->p.y()) >= f.number("bust.bumps_aslant") * f.s)
+  if (std::abs(l.p.y() - r.p.y()) >= f.number("bust.bumps_aslant") * f.s)
     return false;
-  if (std::abs(l->p.x() + r->p.x()) >= f.number("bust.bumps_off_middle") * f.s)
+  if (std::abs(l.p.x() + r.p.x()) >= f.number("bust.bumps_off_middle") * f.s)
     return false;
-  if (std::abs(0.5 * (l->p.y() + r->p.y()) - expected) > f.number("bust.bump_far") * f.s)
+  if (std::abs(0.5 * (l.p.y() + r.p.y()) - expected) > f.number("bust.bump_far") * f.s)
     return false;
   const double near = f.number("bust.bump_near") * f.s;
   for (int side = 0; side < 2; ++side) {
-    const Vec3& p = f.figure.nipple[side]->p;
+    const Vec3& p = pair[side].p;
     const auto foremost =
         foremost_place(f, {p.y() - near, p.y() + near}, chest_half(f, side), 1, PEAKED);
     // a clear bump is believed farther back: a stout trunk leans, and its belly or the middle of
     // its chest is foremost
     const double clear =
-        std::clamp(std::min(l->height, r->height) / f.number("bust.bump") - 1, 0.0, 1.0);
+        std::clamp(std::min(l.height, r.height) / f.number("bust.bump") - 1, 0.0, 1.0);
     if (foremost && p.z() < foremost->p.z() - (1 + 2 * clear) * f.number("bust.bump_behind") * f.s)
       return false;
   }
   return true;
+}
+
+/// Where a nipple can be on one side.
+Box3 chest_box(const Finder& f, int side) {
+  const double inner = f.number("figure.chest_inner") * f.s;
+  const double outer = f.number("figure.chest_outer") * f.s;
+  Box3 box;
+  box.low = Vec3(side == 0 ? inner : -outer, f.number("figure.chest_low") * f.s, -1);
+  box.high = Vec3(side == 0 ? outer : -inner, f.number("figure.chest_high") * f.s, 1);
+  return box;
+}
+
+/// The strongest relief near a place of the front, its height as of a person of usual stature.
+std::optional<ReliefPoint> relief_near(const Finder& f, const Vec3& p, double reach,
+                                       double radius) {
+  Box3 box;
+  box.low = Vec3(p.x() - reach, p.y() - reach, -1);
+  box.high = Vec3(p.x() + reach, p.y() + reach, 1);
+  auto relief = strongest_relief(f.levels.skin(), box, radius, 1);
+  if (relief)
+    relief->height *= f.number("figure.usual_stature") / f.s;
+  return relief;
+}
+
+struct NipplePairs {
+  std::optional<BumpPair> taken;
+  std::optional<BumpPair> rival; ///< nearly as sharp, elsewhere
+};
+
+/// The sharpest pair of bumps that may be nipples, where the strongest one within a wider ring may
+/// be too: there a breast's or a belly's curve may stand out farther.
+NipplePairs nipple_pairs(const Finder& f, double expected) {
+  constexpr std::size_t MOST = 4;    // bumps a side
+  constexpr double APART = 0.013;    // of stature, between bumps of a side
+  constexpr double ELSEWHERE = 0.02; // of stature
+  const double to_usual = f.number("figure.usual_stature") / f.s;
+  const double radius = f.number("bust.sharp_radius") * f.s,
+               wide = f.number("figure.relief_radius") * f.s, least = f.number("bust.sharp");
+  const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
+  NipplePairs pairs;
+  if (!l || !r || !is_nipple_pair(f, {*l, *r}, expected))
+    return pairs;
+  pairs.taken = {*l, *r};
+  std::array<std::vector<ReliefPoint>, 2> bumps;
+  for (int side = 0; side < 2; ++side)
+    bumps[side] = tallest_reliefs(f.levels.skin(), chest_box(f, side), radius, 1, APART * f.s,
+                                  f.number("bust.rival") * least / to_usual, MOST);
+  struct Candidate {
+    double sharp;
+    BumpPair pair;
+  };
+  std::vector<Candidate> candidates;
+  for (const ReliefPoint& left : bumps[0])
+    for (const ReliefPoint& right : bumps[1])
+      candidates.push_back({to_usual * std::min(left.height, right.height), {left, right}});
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.sharp > b.sharp; });
+  auto away = [&](const BumpPair& a, const BumpPair& b) {
+    return Vec3(a[0].p - b[0].p).head<2>().norm() > ELSEWHERE * f.s;
+  };
+  std::optional<Candidate> sharpest;
+  for (const Candidate& candidate : candidates) {
+    if (pairs.rival)
+      break;
+    if (sharpest && (candidate.sharp < f.number("bust.rival") * sharpest->sharp ||
+                     !away(candidate.pair, sharpest->pair)))
+      continue;
+    if (!sharpest && candidate.sharp < least)
+      break;
+    BumpPair wider;
+    bool is_there = true;
+    for (int side = 0; side < 2 && is_there; ++side) {
+      const auto relief = relief_near(f, candidate.pair[side].p, wide, wide);
+      is_there = relief.has_value();
+      if (is_there)
+        wider[side] = *relief;
+    }
+    if (!is_there || !is_nipple_pair(f, wider, expected))
+      continue;
+    if (sharpest) {
+      if (away(wider, *pairs.taken))
+        pairs.rival = wider;
+      continue;
+    }
+    sharpest = candidate;
+    if (away(wider, *pairs.taken))
+      pairs.taken = wider;
+  }
+  // a skin too coarse for the smaller ring cannot tell
+  if (!sharpest && relief_near(f, (*pairs.taken)[0].p, wide, radius) &&
+      relief_near(f, (*pairs.taken)[1].p, wide, radius))
+    pairs.taken.reset();
+  return pairs;
 }
 
 using BothSides = std::array<std::optional<Vec3>, 2>;
@@ -145,6 +240,18 @@ void doubt_hanging_bust(const Finder& f, int side) {
   f.body.scan.findings.push_back({"scan.landmark-unlikely"_id, "warning", text, name});
 }
 
+/// Warns of another bump that may be the nipple.
+void doubt_nipple(const Finder& f, int side, const Vec3& rival) {
+  constexpr double DOUBT = 0.5; // of the confidence
+  const std::string name = std::string("bust_point") + side_suffix(side);
+  f.also(name, rival);
+  f.body.landmarks[name].confidence *= DOUBT;
+  char text[120];
+  std::snprintf(text, sizeof text, "a bump %.0f mm from it stands out as sharply: look at it",
+                1000 * Vec3(rival - f.at(name)).head<2>().norm());
+  f.body.scan.findings.push_back({"scan.landmark-unlikely"_id, "warning", text, name});
+}
+
 } // namespace
 
 void find_bust(const Finder& f, double pit) {
@@ -154,15 +261,17 @@ void find_bust(const Finder& f, double pit) {
   const double expected =
       f.by_population("bust_point", pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk);
   using Found = std::optional<BothSides>;
+  NipplePairs nipples;
   const auto points = f.choose<BothSides>(
       "bust_point", "bust_point",
       {{"bump_of_chest",
         [&]() -> Found {
-          if (!is_nipple_pair(f, expected))
+          nipples = nipple_pairs(f, expected);
+          if (!nipples.taken)
             return std::nullopt;
           BothSides both;
           for (int side = 0; side < 2; ++side) {
-            const Vec3& p = f.figure.nipple[side]->p;
+            const Vec3& p = (*nipples.taken)[side].p;
             both[side] = front_at(f, p.x(), p.y() + MUSCLE_ABOVE * s, MUSCLE_HALF_WIDTH * s);
           }
           return both;
@@ -216,6 +325,8 @@ void find_bust(const Finder& f, double pit) {
     if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
                                 FRONT_HALF_WIDTH * s))
       f.also("bust_point" + suffix, *p);
+    if (is_seen && nipples.rival)
+      doubt_nipple(f, side, (*nipples.rival)[side].p);
     sum += point->y();
     ++n;
   }

@@ -2,9 +2,13 @@
 /// Whether the crotch that the slices show is the body's: thighs that touch, and holes, put it too
 /// low.
 #include <sloper/body/body.hpp>
+#include <sloper/body/landmarks/corrections.hpp>
 #include <sloper/body/landmarks/rules.hpp>
 #include <sloper/body/measure/level_stack.hpp>
 namespace sloper::body {
+
+/// Where the height of a crotch is from.
+enum class CrotchSource { SKIN, BUTTOCKS, REST_OF_BODY };
 
 /// What tells of a crotch.
 struct CrotchEvidence {
@@ -21,5 +25,15 @@ struct CrotchEvidence {
 /// @return true when it was moved; then a finding and a line of the trail say why
 bool doubt_crotch(LevelStack& levels, const CrotchEvidence& evidence,
                   std::vector<Finding>& findings, std::vector<std::string>& trail);
+
+/// The second way: where the crotch was estimated, or lies under thin skin that spans the gap
+/// between thighs, it is put at the height that the rest of the body lets expect. How far back it
+/// lies there is decided between both ends of the trunk's underside, by the seat; on rebuilt skin
+/// that shows it far from there a warning says so.
+/// @param source in and out
+/// @return true when the crotch was moved; then a finding and a line of the trail say why
+bool expect_crotch(LevelStack& levels, const Corrections::Expected& expected,
+                   const CrotchEvidence& evidence, CrotchSource& source,
+                   std::vector<Finding>& findings, std::vector<std::string>& trail);
 
 } // namespace sloper::body

@@ -3,6 +3,7 @@
 /// region. All work on a closed skin in the body frame and fill body.landmarks, body.levels and
 /// body.girths; nothing is guessed silently.
 #include <algorithm>
+#include <body/landmarks/crotch.hpp>
 #include <body/measure/relief.hpp>
 #include <functional>
 #include <initializer_list>
@@ -39,8 +40,8 @@ struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body
-  bool rebuilt;      ///< the skin is not the scan's own and has lost its finest ends
-  bool crotch_moved; ///< the crotch is an estimate
+  bool rebuilt;               ///< the skin is not the scan's own and has lost its finest ends
+  CrotchSource crotch_source; ///< of the crotch of `levels`
   const Rules& rules;
   const Corrections& corrections;
   const ShapeFeatures& shape;

@@ -162,14 +162,15 @@ void find_leg_landmarks(const Finder& f) {
   if (!f.levels.crotch())
     return;
   const Vec3 crotch(f.levels.crotch_point().x(), *f.levels.crotch(), f.levels.crotch_point().y());
-  auto when = [&](bool moved) {
-    return moved == f.crotch_moved ? std::optional(crotch) : std::nullopt;
+  auto when = [&](CrotchSource source) {
+    return source == f.crotch_source ? std::optional(crotch) : std::nullopt;
   };
   if (!f.find("crotch", "", 1,
-              {{"leg_sections_merge", [&] { return when(false); }},
-               {"below_buttocks", [&] { return when(true); }}}))
+              {{"leg_sections_merge", [&] { return when(CrotchSource::SKIN); }},
+               {"by_rest_of_body", [&] { return when(CrotchSource::REST_OF_BODY); }},
+               {"below_buttocks", [&] { return when(CrotchSource::BUTTOCKS); }}}))
     return;
-  if (const auto& other = f.levels.other_crotch(); other && !f.crotch_moved) {
+  if (const auto& other = f.levels.other_crotch(); other && f.crotch_source == CrotchSource::SKIN) {
     f.also("crotch", *other);
     f.body.landmarks["crotch"].confidence *= EITHER;
     char text[160];

@@ -237,6 +237,12 @@ std::optional<Foremost> likely_foremost(const Finder& finder, Span heights, Span
     likely.low = std::min(likely.low, p.y());
     likely.high = std::max(likely.high, p.y());
   }
+  std::vector<double> heights_of;
+  for (const Vec3& p : places)
+    heights_of.push_back(p.y());
+  const auto half = heights_of.begin() + std::ssize(heights_of) / 2;
+  std::nth_element(heights_of.begin(), half, heights_of.end());
+  likely.median = *half;
   double squares = 0;
   for (const Vec3& p : places)
     squares += (p.y() - mean.y()) * (p.y() - mean.y());

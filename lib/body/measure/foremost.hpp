@@ -5,10 +5,11 @@ namespace sloper::body {
 
 /// The place of a trunk that stands out most.
 struct Foremost {
-  Vec3 p;           ///< on the skin, body frame
-  double spread_m;  ///< root mean square height of what is as far out, about p: the place is no
-                    ///< better known than that
-  double low, high; ///< heights between which the skin is as far out, m
+  Vec3 p;            ///< on the skin, body frame
+  double spread_m;   ///< root mean square height of what is as far out, about p: the place is no
+                     ///< better known than that
+  double low, high;  ///< heights between which the skin is as far out, m
+  double median = 0; ///< of the heights of likely_foremost(), m
 };
 
 /// Heights, or places across, between which it is searched, m.

@@ -3,6 +3,7 @@
 /// navel.
 #include <optional>
 #include <sloper/geometry/triangle_mesh.hpp>
+#include <vector>
 namespace sloper::body {
 
 /// The tip of a bump or the bottom of a dimple.
@@ -16,5 +17,11 @@ struct ReliefPoint {
 /// middle of what reaches 0.7 of the most, weighted by what it has beyond that.
 std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const Box3& box,
                                             double radius, double sign);
+
+/// The places of the same kind, each higher (deeper) than all within `apart`, m, of it, that are
+/// over `least` high, m; the highest first.
+/// @param most this many at most
+std::vector<ReliefPoint> tallest_reliefs(const TriangleMesh& skin, const Box3& box, double radius,
+                                         double sign, double apart, double least, std::size_t most);
 
 } // namespace sloper::body

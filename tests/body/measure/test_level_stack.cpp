@@ -1,5 +1,6 @@
 /// Level slices of simple solids: which loop is the trunk, where the crotch lies, and the arm pit
 /// between an arm and a trunk.
+#include <body/landmarks/crotch.hpp>
 #include <gtest/gtest.h>
 #include <sloper/body/measure/arm_trace.hpp>
 #include <sloper/body/measure/level_stack.hpp>
@@ -128,12 +129,47 @@ TEST(LevelStack, crotch_in_front_may_lie_just_above_where_the_legs_become_one) {
   EXPECT_NEAR(levels.crotch_point().y(), 0.06, 0.005);
 }
 
-/// The skin from a level arm to the trunk's side runs along the lines that look for the gap between
-/// both: it closes nowhere in particular.
-TEST(ArmPit, lies_at_its_usual_distance_from_a_level_arm_where_the_skin_has_no_corner) {
-  const std::vector<Vec2> outline = {{0.19, 1.42}, {0, 1.42},       {0, 0.9},      {0.15, 0.9},
-                                     {0.19, 1.1},  {0.205, 1.2253}, {0.26, 1.315}, {0.3, 1.32},
-                                     {0.75, 1.32}, {0.75, 1.42}};
+/// Legs that are one from 8 cm below the trunk by a web, `deep` from front to back.
+TriangleMesh legs_with_a_web(double deep) {
+  const double z = 0.5 * deep;
+  const std::vector<Vec2> section = {{0.03, z},      {0.03, 0.07},  {0.15, 0.07},  {0.15, -0.07},
+                                     {0.03, -0.07},  {0.03, -z},    {-0.03, -z},   {-0.03, -0.07},
+                                     {-0.15, -0.07}, {-0.15, 0.07}, {-0.03, 0.07}, {-0.03, z}};
+  TriangleMesh web = prism(section, Vec3::UnitX(), Vec3::UnitZ(), Vec3::UnitY(), 0.05);
+  for (Vec3& p : web.positions)
+    p.y() += 0.77; // 0.72 to 0.82
+  TriangleMesh mesh = legs(0.72);
+  append(mesh, web);
+  append(mesh, box({-0.17, 0.8, -0.12}, {0.17, 1.4, 0.12}));
+  return mesh;
+}
+
+/// Skin that spans the gap between thighs is thin: of ten scans whose legs had grown together the
+/// crotch was 31 to 56 mm too low. A trunk's underside is not.
+TEST(Crotch, under_a_thin_web_is_where_the_rest_of_the_body_lets_expect_it) {
+  auto moved = [](double deep) {
+    const TriangleMesh skin = legs_with_a_web(deep);
+    LevelStack levels(skin, STATURE, 0.005);
+    EXPECT_TRUE(levels.crotch());
+    EXPECT_NEAR(levels.crotch().value_or(0), 0.72, 0.001);
+    CrotchSource source = CrotchSource::SKIN;
+    std::vector<Finding> findings;
+    std::vector<std::string> trail;
+    const Rules rules = Rules::standard();
+    const bool is_moved = expect_crotch(levels, {0.8 / STATURE, 0.0077}, {{}, rules, false, true},
+                                        source, findings, trail);
+    EXPECT_EQ(is_moved, source == CrotchSource::REST_OF_BODY);
+    EXPECT_EQ(findings.size(), is_moved ? 1U : 0U);
+    return levels.crotch().value_or(0) - 0.72;
+  };
+  EXPECT_NEAR(moved(0.03), 0.08, 0.001);
+  EXPECT_NEAR(moved(0.11), 0, 0.001);
+}
+
+namespace {
+
+/// The left pit between a level arm and the trunk of an outline (x, y), 20 cm deep.
+ArmTrace pit_of(const std::vector<Vec2>& outline) {
   const TriangleMesh skin = prism(outline, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), 0.1);
   const LevelStack levels(skin, STATURE, 0.005);
   ArmTrace arm;
@@ -149,7 +185,42 @@ TEST(ArmPit, lies_at_its_usual_distance_from_a_level_arm_where_the_skin_has_no_c
     section.girth = 0.33;
   }
   find_axilla(arm, levels, Rules::standard());
+  return arm;
+}
+
+} // namespace
+
+/// The skin from a level arm to the trunk's side runs along the lines that look for the gap between
+/// both: it closes nowhere in particular.
+TEST(ArmPit, lies_at_its_usual_distance_from_a_level_arm_where_the_skin_has_no_corner) {
+  const ArmTrace arm = pit_of({{0.19, 1.42},
+                               {0, 1.42},
+                               {0, 0.9},
+                               {0.15, 0.9},
+                               {0.19, 1.1},
+                               {0.205, 1.2253},
+                               {0.26, 1.315},
+                               {0.3, 1.32},
+                               {0.75, 1.32},
+                               {0.75, 1.42}});
   ASSERT_TRUE(arm.axilla);
   EXPECT_FALSE(arm.pit_hidden);
   EXPECT_NEAR(arm.axilla->y(), 1.282, 0.008);
+}
+
+/// A gap that ends after a few lines is a fold of the arm beside them: of 704 bodies one had both
+/// its pits hidden by it.
+TEST(ArmPit, is_not_hidden_by_a_fold_of_the_arm) {
+  const std::vector<Vec2> trunk = {{0.19, 1.42}, {0, 1.42}, {0, 0.9}, {0.17, 0.9}, {0.19, 1.3}};
+  const std::vector<Vec2> fold = {{0.402, 1.32}, {0.402, 1.325}, {0.397, 1.325},
+                                  {0.397, 1.33}, {0.405, 1.33},  {0.405, 1.32}};
+  std::vector<Vec2> plain = trunk, folded = trunk;
+  folded.insert(folded.end(), fold.begin(), fold.end());
+  for (std::vector<Vec2>* outline : {&plain, &folded})
+    outline->insert(outline->end(), {{0.75, 1.32}, {0.75, 1.42}});
+  const ArmTrace expected = pit_of(plain), arm = pit_of(folded);
+  ASSERT_TRUE(expected.axilla && arm.axilla);
+  EXPECT_FALSE(expected.pit_hidden);
+  EXPECT_FALSE(arm.pit_hidden);
+  EXPECT_LT((*arm.axilla - *expected.axilla).norm(), 0.001);
 }

@@ -1,0 +1,98 @@
+#include <body/landmarks/made_up_skin.hpp>
+#include <body/surface/point_grid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace sloper::body {
+
+namespace {
+
+constexpr double FROM_POINTS =
+    0.008; ///< of stature: a place of the skin farther from all points is made up
+constexpr double SPACINGS = 2.5;      ///< ... or so many spacings of the points, where that is more
+constexpr double RESTS_NEAR = 0.03;   ///< of stature: a landmark this near to it rests on it
+constexpr double MADE_UP_DOUBT = 0.5; ///< of the confidence
+/// What stands or falls together: one place of skin or one fold.
+const std::vector<std::vector<std::string>> SKIN_PLACES = {
+    {"axilla_l", "axilla_front_l", "axilla_back_l", "axilla_merge_l"},
+    {"axilla_r", "axilla_front_r", "axilla_back_r", "axilla_merge_r"},
+    {"acromion_l"},
+    {"acromion_r"},
+    {"bust_point_l"},
+    {"bust_point_r"},
+    {"bust_prominent_l"},
+    {"bust_prominent_r"},
+    {"waist_side_l"},
+    {"waist_side_r"},
+    {"olecranon_l"},
+    {"olecranon_r"},
+    {"crotch"},
+    {"neck_front"},
+    {"neck_back"},
+    {"omphalion"},
+    {"abdomen_front"},
+    {"buttock_back"}};
+
+double skin_area(const TriangleMesh& skin) {
+  double twice = 0;
+  for (const Triangle& t : skin.triangles)
+    twice += area_normal(skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]).norm();
+  return 0.5 * twice;
+}
+
+/// Whether a face of the skin within `reach`, m, of p has its middle farther from all points than
+/// the cell of the grids.
+bool is_made_up(const TriangleMesh& skin, const Vec3& p, double reach, const PointGrid& points,
+                const PointGrid& on_faces) {
+  return std::any_of(skin.triangles.begin(), skin.triangles.end(), [&](const Triangle& t) {
+    const Vec3& corner = skin.positions[t[0]];
+    if ((corner - p).cwiseAbs().maxCoeff() > 2 * reach)
+      return false;
+    const Vec3 middle = (corner + skin.positions[t[1]] + skin.positions[t[2]]) / 3;
+    return (middle - p).norm() < reach && points.nearest(middle) < 0 &&
+           on_faces.nearest(middle) < 0;
+  });
+}
+
+} // namespace
+
+void doubt_made_up_skin(Body& body, const std::vector<Vec3>& points,
+                        const std::vector<Vec3>& on_faces) {
+  if (points.empty() || body.skin.triangles.empty())
+    return;
+  const double s = body.scan.stature_m;
+  const double spacing = std::sqrt(skin_area(body.skin) / static_cast<double>(points.size()));
+  const double far = std::max(FROM_POINTS * s, SPACINGS * spacing);
+  const PointGrid vertices(points, far), faces(on_faces, far);
+  auto rests_on_it = [&](const std::string& name) {
+    return body.has_landmark(name) &&
+           is_made_up(body.skin, body.landmark(name), RESTS_NEAR * s, vertices, faces);
+  };
+  auto is_warned = [&](const std::string& name) {
+    return std::any_of(body.scan.findings.begin(), body.scan.findings.end(), [&](const Finding& f) {
+      return f.place == name && f.severity == "warning";
+    });
+  };
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the skin beside it is made up: the scan has no points within %.0f mm there",
+                1000 * far);
+  for (const std::vector<std::string>& together : SKIN_PLACES) {
+    if (std::none_of(together.begin(), together.end(), rests_on_it))
+      continue;
+    for (const std::string& name : together) {
+      const auto it = body.landmarks.find(name);
+      if (it == body.landmarks.end() || is_warned(name))
+        continue;
+      it->second.spread_m = std::max(it->second.spread_m, far);
+      it->second.confidence *= MADE_UP_DOUBT;
+      body.scan.findings.push_back({"scan.landmark-unsure"_id, "warning", text, name});
+    }
+  }
+}
+
+} // namespace sloper::body
