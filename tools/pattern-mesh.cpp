@@ -223,13 +223,17 @@ int run(cli::Tool& tool, const Options& o) {
     edits = nullptr;
   }
   pattern::require_sewable(source, o.pattern);
-  pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
+  const auto mesh_source = [&] {
+    return pattern::mesh_pattern(
+        source, pattern::lengths_for_rolls(source, o.edge_length, o.seam_length), o.pattern);
+  };
+  pattern::PanelMesh mesh = mesh_source();
   if (!edits.is_null()) {
     const pattern::Pattern before = source;
     pattern::apply_edits(source, edits, o.edits);
     pattern::require_sewable(source, o.pattern);
     if (!pattern::follow_edits(before, source, mesh, LEAST_ANGLE)) {
-      mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
+      mesh = mesh_source();
       mesh.findings.push_back(
           {"mesh.made-anew"_id, "the edits need another mesh: vertex ids are new"});
       tool.reporter().warning(mesh.findings.back());

@@ -64,7 +64,8 @@ public:
     const Laid own{triangle, mesh.triangles[triangle].flat};
     std::vector<Laid> around;
     add_hinges_of(own, 1, &around);
-    if (smallest_eigenvalue() >= WELL_POSED)
+    m_is_well_posed = exceeds(normal_equations(), WELL_POSED);
+    if (m_is_well_posed)
       return;
     for (const Laid& laid : around)
       add_hinges_of(laid, NEIGHBOUR_WEIGHT, nullptr);
@@ -73,7 +74,7 @@ public:
   /// 3 by m: (x_uu, x_vv, sqrt(2) x_uv) from the hinges' vectors.
   Eigen::MatrixXd inverse() const {
     Mat3 normal = normal_equations();
-    if (smallest_eigenvalue() < REGULARISATION)
+    if (!m_is_well_posed && !exceeds(normal, REGULARISATION))
       normal += REGULARISATION * normal.trace() * Mat3::Identity();
     const Mat3 inverse = normal.inverse();
     Eigen::MatrixXd out(3, static_cast<Eigen::Index>(m_row.size()));
@@ -135,9 +136,9 @@ private:
       sum += m_weight[e] / m_row[e].squaredNorm() * m_row[e] * m_row[e].transpose();
     return sum;
   }
-  double smallest_eigenvalue() const {
-    return Eigen::SelfAdjointEigenSolver<Mat3>(normal_equations(), Eigen::EigenvaluesOnly)
-        .eigenvalues()[0];
+  /// Whether the smallest eigenvalue is above `bound`.
+  static bool exceeds(const Mat3& symmetric, double bound) {
+    return Eigen::LLT<Mat3>(symmetric - bound * Mat3::Identity()).info() == Eigen::Success;
   }
 
   const ClothMesh& m_mesh;
@@ -145,6 +146,7 @@ private:
   std::vector<int> m_hinge;
   std::vector<Vec3> m_row;
   std::vector<double> m_weight;
+  bool m_is_well_posed = false; // by the triangle's own hinges
 };
 
 } // namespace

@@ -23,6 +23,18 @@ static Vec3 curvature(const Hinge& hinge, const std::vector<Vec3>& x) {
   return sum;
 }
 
+void add_hinge_vector(const Hinge& hinge, const HingeSlots& slots, const Vec3& moment, double k,
+                      std::vector<Vec3>& force, BlockMatrix& stiffness) {
+  int at = 0;
+  for (int a = 0; a < 4; ++a) {
+    force[hinge.particle[a]] -= hinge.coefficient[a] * moment;
+    stiffness.add_isotropic_diagonal(hinge.particle[a],
+                                     k * hinge.coefficient[a] * hinge.coefficient[a]);
+    for (int b = a + 1; b < 4; ++b)
+      stiffness.add_isotropic(slots[at++], k * hinge.coefficient[a] * hinge.coefficient[b]);
+  }
+}
+
 double bending_energy(const ClothMesh& mesh, const std::vector<Vec3>& x) {
   double sum = 0;
   for (const Hinge& hinge : mesh.hinges)
@@ -38,14 +50,7 @@ void add_bending(const ClothMesh& mesh, const std::vector<Vec3>& x, double h,
     const Hinge& hinge = mesh.hinges[e];
     const Vec3 c = hinge.stiffness * curvature(hinge, x);
     const double k = hinge.stiffness * (1 + damping);
-    int at = 0;
-    for (int a = 0; a < 4; ++a) {
-      force[hinge.particle[a]] -= hinge.coefficient[a] * c;
-      stiffness.add_isotropic_diagonal(hinge.particle[a],
-                                       k * hinge.coefficient[a] * hinge.coefficient[a]);
-      for (int b = a + 1; b < 4; ++b)
-        stiffness.add_isotropic(slots[e][at++], k * hinge.coefficient[a] * hinge.coefficient[b]);
-    }
+    add_hinge_vector(hinge, slots[e], c, k, force, stiffness);
   }
 }
 

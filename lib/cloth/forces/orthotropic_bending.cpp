@@ -8,19 +8,21 @@ namespace sloper::cloth {
 
 namespace {
 
-/// Index of `value` in `list`, where it is added if it is not there.
-Eigen::Index place_of(std::vector<int>& list, int value) {
-  const auto found = std::find(list.begin(), list.end(), value);
-  if (found != list.end())
-    return found - list.begin();
-  list.push_back(value);
-  return static_cast<Eigen::Index>(list.size()) - 1;
-}
-
 /// By how much a mode of a plate may be stiffer than its hinges alone. At 1.5 the hinges of an
 /// equilateral mesh have the rigidity of a cylinder, and an error of any mode at least halves in a
 /// step; from 2 on it would grow.
 constexpr double MOST_ABOVE_HINGES = 1.5;
+
+/// Largest eigenvalue of a plate's stiffness relative to its diagonal.
+double largest_eigenvalue(const Eigen::MatrixXd& relative) {
+  if (relative.rows() == 3) {
+    Eigen::SelfAdjointEigenSolver<Mat3> direct;
+    return direct.computeDirect(Mat3(relative), Eigen::EigenvaluesOnly).eigenvalues()[2];
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(relative, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .tail(1)[0];
+}
 
 /// Diagonal of the plate's stiffness, scaled so that no mode exceeds it by more. m
 Eigen::VectorXd hinges_alone(const Eigen::MatrixXd& stiffness) {
@@ -28,11 +30,7 @@ Eigen::VectorXd hinges_alone(const Eigen::MatrixXd& stiffness) {
   const Eigen::VectorXd root =
       diagonal.unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0; });
   const Eigen::MatrixXd relative = root.asDiagonal() * stiffness * root.asDiagonal();
-  const double largest =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(relative, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .tail(1)[0];
-  return largest / MOST_ABOVE_HINGES * diagonal;
+  return largest_eigenvalue(relative) / MOST_ABOVE_HINGES * diagonal;
 }
 
 } // namespace
@@ -40,71 +38,45 @@ Eigen::VectorXd hinges_alone(const Eigen::MatrixXd& stiffness) {
 OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
                                                    std::optional<std::vector<double>> rest_angle)
     : m_mesh(mesh), m_plates(make_bending_plates(mesh)), m_rest_angle(std::move(rest_angle)) {
-  std::vector<Pair> pairs, hinge_pairs; // of plates whose stiffness is constant
-  for (const BendingPlate& plate : m_plates) {
-    m_stencils.push_back(stencil_of(plate));
-    const Stencil& s = m_stencils.back();
-    const bool constant = !m_rest_angle && plate.soft_share <= 0;
-    if (!constant)
-      continue;
-    add_pairs(s, s.stiffness, pairs);
-    add_pairs(s, s.of_hinges, hinge_pairs);
+  if (!m_rest_angle) {
+    sort_plates();
+    return;
   }
-  m_pairs = sums(std::move(pairs));
-  m_hinge_pairs = sums(std::move(hinge_pairs));
-  if (m_rest_angle)
-    sign_lengths();
+  for (const BendingPlate& plate : m_plates)
+    m_stencils.push_back(stencil_of(plate));
+  sign_lengths();
 }
 
-/// The particles of a plate's hinges, and what their places say of its curvature.
+/// Moves plates of three hinges that do not soften to m_threes.
+void OrthotropicBendingEffect::sort_plates() {
+  m_constant.assign(m_mesh.hinges.size(), 0);
+  std::vector<BendingPlate> others;
+  for (BendingPlate& plate : m_plates) {
+    Eigen::VectorXd given = hinges_alone(plate.stiffness);
+    const bool softens = plate.soft_share > 0;
+    for (std::size_t a = 0; !softens && a < plate.hinge.size(); ++a)
+      m_constant[plate.hinge[a]] += given[static_cast<Eigen::Index>(a)];
+    if (!softens && plate.hinge.size() == 3) {
+      const Eigen::MatrixXd& k = plate.stiffness;
+      m_threes.push_back({{plate.hinge[0], plate.hinge[1], plate.hinge[2]},
+                          {k(0, 0), k(0, 1), k(0, 2), k(1, 1), k(1, 2), k(2, 2)}});
+      continue;
+    }
+    others.push_back(std::move(plate));
+    m_given.push_back(std::move(given));
+  }
+  m_plates = std::move(others);
+}
+
+/// The particles of a plate's hinges.
 OrthotropicBendingEffect::Stencil
 OrthotropicBendingEffect::stencil_of(const BendingPlate& plate) const {
   Stencil s;
   for (int h : plate.hinge)
     for (int p : m_mesh.hinges[h].particle)
-      place_of(s.particle, p);
-  const auto m = static_cast<Eigen::Index>(plate.hinge.size());
-  const auto n = static_cast<Eigen::Index>(s.particle.size());
-  s.coefficient = Eigen::MatrixXd::Zero(m, n);
-  for (Eigen::Index e = 0; e < m; ++e) {
-    const Hinge& hinge = m_mesh.hinges[plate.hinge[e]];
-    for (int k = 0; k < 4; ++k)
-      s.coefficient(e, place_of(s.particle, hinge.particle[k])) += hinge.coefficient[k];
-  }
-  s.stiffness = s.coefficient.transpose() * plate.stiffness * s.coefficient;
-  s.of_hinges =
-      s.coefficient.transpose() * hinges_alone(plate.stiffness).asDiagonal() * s.coefficient;
+      if (std::find(s.particle.begin(), s.particle.end(), p) == s.particle.end())
+        s.particle.push_back(p);
   return s;
-}
-
-/// Pairs that no hinge has together are 0 in a matrix of hinges, and are left out.
-void OrthotropicBendingEffect::add_pairs(const Stencil& stencil, const Eigen::MatrixXd& of,
-                                         std::vector<Pair>& to) {
-  const auto n = static_cast<Eigen::Index>(stencil.particle.size());
-  for (Eigen::Index a = 0; a < n; ++a)
-    for (Eigen::Index b = a; b < n; ++b) {
-      if (of(a, b) == 0)
-        continue;
-      const auto [low, high] = std::minmax(stencil.particle[a], stencil.particle[b]);
-      to.push_back({low, high, of(a, b)});
-    }
-}
-
-/// Plates overlap: one entry for each pair of particles.
-std::vector<OrthotropicBendingEffect::Pair>
-OrthotropicBendingEffect::sums(std::vector<Pair> pairs) {
-  std::vector<Pair> out;
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
-  });
-  for (const Pair& p : pairs) {
-    const bool again = !out.empty() && out.back().i == p.i && out.back().j == p.j;
-    if (again)
-      out.back().stiffness += p.stiffness;
-    else
-      out.push_back(p);
-  }
-  return out;
 }
 
 /// Rest length of each hinge's edge, negative where the hinge runs against its first triangle.
@@ -123,62 +95,55 @@ void OrthotropicBendingEffect::sign_lengths() {
 
 void OrthotropicBendingEffect::declare(Couplings& couplings) const {
   auto& pairs = m_rest_angle ? couplings.full : couplings.isotropic;
-  if (m_rest_angle)
-    for (const Hinge& hinge : m_mesh.hinges)
-      for (int a = 0; a < 4; ++a)
-        for (int b = a + 1; b < 4; ++b)
-          pairs.push_back({hinge.particle[a], hinge.particle[b]});
-  for (const Pair& p : m_hinge_pairs)
-    if (p.i != p.j)
-      pairs.push_back({p.i, p.j});
-  for (std::size_t k = 0; k < m_plates.size(); ++k) {
-    if (!m_rest_angle && is_constant(k))
-      continue;
-    const Stencil& s = m_stencils[k];
-    const auto n = static_cast<Eigen::Index>(s.particle.size());
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = a + 1; b < n; ++b)
-        if (couples(s, a, b))
-          pairs.push_back({s.particle[a], s.particle[b]});
-  }
+  for (const Hinge& hinge : m_mesh.hinges)
+    for (int a = 0; a < 4; ++a)
+      for (int b = a + 1; b < 4; ++b)
+        pairs.push_back({hinge.particle[a], hinge.particle[b]});
+  for (const Stencil& s : m_stencils)
+    for (std::size_t a = 0; a < s.particle.size(); ++a)
+      for (std::size_t b = a + 1; b < s.particle.size(); ++b)
+        pairs.push_back({s.particle[a], s.particle[b]});
 }
 
 void OrthotropicBendingEffect::bind(const BlockMatrix& matrix) {
-  if (m_rest_angle)
-    m_hinge_slots = find_hinge_slots(m_mesh, matrix);
-  m_pair_slots.clear();
-  for (const Pair& p : m_hinge_pairs)
-    m_pair_slots.push_back(p.i == p.j ? -1 : matrix.slot(p.i, p.j));
-  for (std::size_t k = 0; k < m_plates.size(); ++k) {
-    Stencil& s = m_stencils[k];
+  m_hinge_slots = find_hinge_slots(m_mesh, matrix);
+  for (Stencil& s : m_stencils) {
     s.slot.clear();
-    if (!m_rest_angle && is_constant(k))
-      continue;
-    const auto n = static_cast<Eigen::Index>(s.particle.size());
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = a + 1; b < n; ++b)
-        s.slot.push_back(couples(s, a, b) ? matrix.slot(s.particle[a], s.particle[b]) : -1);
+    for (std::size_t a = 0; a < s.particle.size(); ++a)
+      for (std::size_t b = a + 1; b < s.particle.size(); ++b)
+        s.slot.push_back(matrix.slot(s.particle[a], s.particle[b]));
   }
+}
+
+/// A hinge is in up to three plates: each q is made once.
+std::vector<Vec3> OrthotropicBendingEffect::curvature_vectors(const std::vector<Vec3>& x) const {
+  std::vector<Vec3> q(m_mesh.hinges.size());
+  for (std::size_t h = 0; h < q.size(); ++h) {
+    const Hinge& hinge = m_mesh.hinges[h];
+    q[h] = hinge.coefficient[0] * x[hinge.particle[0]];
+    for (int k = 1; k < 4; ++k)
+      q[h] += hinge.coefficient[k] * x[hinge.particle[k]];
+  }
+  return q;
 }
 
 double OrthotropicBendingEffect::energy(const std::vector<Vec3>& x) const {
   if (m_rest_angle)
     return m_mesh.bend_scale * energy_of_angles(x);
-  // A hinge is in up to three plates, and line searches ask often: each q is made once.
-  std::vector<Vec3> q(m_mesh.hinges.size(), Vec3::Zero());
-  for (std::size_t h = 0; h < q.size(); ++h)
-    for (int k = 0; k < 4; ++k)
-      q[h] += m_mesh.hinges[h].coefficient[k] * x[m_mesh.hinges[h].particle[k]];
+  const std::vector<Vec3> q = curvature_vectors(x);
   double sum = 0;
+  for (const Three& plate : m_threes) {
+    const Vec3 &a = q[plate.hinge[0]], &b = q[plate.hinge[1]], &c = q[plate.hinge[2]];
+    const auto& k = plate.stiffness;
+    sum += 0.5 * (k[0] * a.squaredNorm() + k[3] * b.squaredNorm() + k[5] * c.squaredNorm()) +
+           k[1] * a.dot(b) + k[2] * a.dot(c) + k[4] * b.dot(c);
+  }
   for (const BendingPlate& plate : m_plates) {
     double s = 0;
-    for (std::size_t a = 0; a < plate.hinge.size(); ++a) {
-      Vec3 moment = Vec3::Zero();
+    for (std::size_t a = 0; a < plate.hinge.size(); ++a)
       for (std::size_t b = 0; b < plate.hinge.size(); ++b)
-        moment += plate.stiffness(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) *
-                  q[plate.hinge[b]];
-      s += q[plate.hinge[a]].dot(moment);
-    }
+        s += plate.stiffness(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) *
+             q[plate.hinge[a]].dot(q[plate.hinge[b]]);
     sum += plate.energy(s);
   }
   return m_mesh.bend_scale * sum;
@@ -186,50 +151,46 @@ double OrthotropicBendingEffect::energy(const std::vector<Vec3>& x) const {
 
 void OrthotropicBendingEffect::add(StepContext& c) {
   const double damping = m_mesh.fabrics.empty() ? 0 : m_mesh.fabrics[0].damping_s / c.h;
-  if (m_rest_angle) {
+  if (m_rest_angle)
     add_angles(c, damping);
-    return;
-  }
-  add_sums(c, damping);
-  for (std::size_t k = 0; k < m_plates.size(); ++k)
-    if (!is_constant(k))
-      add_plate(c, k, damping);
+  else
+    add_vectors(c, damping);
 }
 
-void OrthotropicBendingEffect::add_sums(StepContext& c, double damping) const {
-  const double scale = m_mesh.bend_scale;
-  for (const Pair& p : m_pairs) {
-    const double k = scale * p.stiffness;
-    c.force[p.i] -= k * c.x[p.j];
-    if (p.i != p.j)
-      c.force[p.j] -= k * c.x[p.i];
-  }
-  for (std::size_t e = 0; e < m_hinge_pairs.size(); ++e) {
-    const Pair& p = m_hinge_pairs[e];
-    const double k = scale * p.stiffness * (1 + damping);
-    if (p.i == p.j)
-      c.stiffness.add_isotropic_diagonal(p.i, k);
-    else
-      c.stiffness.add_isotropic(m_pair_slots[e], k);
+/// Moments dE/dq of a plate to those of its hinges. @param given  of m_given
+void OrthotropicBendingEffect::add_moments(const BendingPlate& plate, const Eigen::VectorXd& given,
+                                           const std::vector<Vec3>& q) {
+  const auto m = static_cast<Eigen::Index>(plate.hinge.size());
+  Eigen::Matrix<double, 3, Eigen::Dynamic> turned(3, m);
+  for (Eigen::Index a = 0; a < m; ++a)
+    turned.col(a) = q[plate.hinge[a]];
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> moment = turned * plate.stiffness;
+  const double secant = plate.secant(moment.cwiseProduct(turned).sum());
+  for (Eigen::Index a = 0; a < m; ++a) {
+    m_moment[plate.hinge[a]] += secant * moment.col(a);
+    if (plate.soft_share > 0)
+      m_stiffness[plate.hinge[a]] += secant * given[a];
   }
 }
 
-void OrthotropicBendingEffect::add_plate(StepContext& c, std::size_t plate, double damping) {
-  const Stencil& s = m_stencils[plate];
-  const auto n = static_cast<Eigen::Index>(s.particle.size());
-  Eigen::Matrix<double, Eigen::Dynamic, 3> x(n, 3);
-  for (Eigen::Index a = 0; a < n; ++a)
-    x.row(a) = (c.x[s.particle[a]] - c.x[s.particle[0]]).transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, 3> force = s.stiffness * x;
-  const double secant = m_mesh.bend_scale * m_plates[plate].secant(force.cwiseProduct(x).sum());
-  std::size_t at = 0;
-  for (Eigen::Index a = 0; a < n; ++a) {
-    c.force[s.particle[a]] -= secant * force.row(a).transpose();
-    const double k = secant * (1 + damping);
-    c.stiffness.add_isotropic_diagonal(s.particle[a], k * s.of_hinges(a, a));
-    for (Eigen::Index b = a + 1; b < n; ++b, ++at)
-      if (s.slot[at] >= 0)
-        c.stiffness.add_isotropic(s.slot[at], k * s.of_hinges(a, b));
+void OrthotropicBendingEffect::add_vectors(StepContext& c, double damping) {
+  const std::vector<Vec3> q = curvature_vectors(c.x);
+  m_moment.assign(q.size(), Vec3::Zero());
+  m_stiffness = m_constant;
+  for (const Three& plate : m_threes) {
+    const auto [i, j, l] = plate.hinge;
+    const auto& k = plate.stiffness;
+    m_moment[i] += k[0] * q[i] + k[1] * q[j] + k[2] * q[l];
+    m_moment[j] += k[1] * q[i] + k[3] * q[j] + k[4] * q[l];
+    m_moment[l] += k[2] * q[i] + k[4] * q[j] + k[5] * q[l];
+  }
+  for (std::size_t p = 0; p < m_plates.size(); ++p)
+    add_moments(m_plates[p], m_given[p], q);
+  for (std::size_t h = 0; h < q.size(); ++h) {
+    const Hinge& hinge = m_mesh.hinges[h];
+    const Vec3 moment = m_mesh.bend_scale * m_moment[h];
+    const double k = m_mesh.bend_scale * m_stiffness[h] * (1 + damping);
+    add_hinge_vector(hinge, m_hinge_slots[h], moment, k, c.force, c.stiffness);
   }
 }
 

@@ -62,8 +62,10 @@ void LivePattern::ready_follower() {
 }
 
 pattern::PanelMesh LivePattern::mesh_of(const pattern::Pattern& pattern) {
-  return pattern::mesh_pattern(pattern, m_garment.panels.edge_length, "edits",
-                               m_garment.panels.seam_length, &m_memory);
+  const pattern::PanelMesh& now = m_garment.panels;
+  return pattern::mesh_pattern(
+      pattern, pattern::lengths_for_rolls(pattern, now.edge_length, now.seam_length), "edits",
+      &m_memory);
 }
 
 void LivePattern::warm_up() {

@@ -85,19 +85,12 @@ void clear_of_skin(Garment& garment, const collision::BodyCollider& skin, double
   }
 }
 
-/// Edge lengths of the coarse mesh: where cloth is turned over, it has edges along the roll line.
-/// With 48 mm the line of a collar of 5 cm would be left out, and the collar would stand.
-pattern::MeshLengths coarse_lengths(const pattern::Pattern& pattern) {
-  pattern::MeshLengths out{.usual = COARSE_EDGE};
-  for (const pattern::Panel& panel : pattern.panels)
-    out.of_panel.push_back(pattern::edge_length_for_rolls(panel, COARSE_EDGE));
-  return out;
-}
-
-/// The coarse mesh of the pattern, placed as the given panels are.
+/// The coarse mesh of the pattern, placed as the given panels are. It has edges along roll lines:
+/// with 48 mm that of a collar of 5 cm would be left out, and the collar would stand.
 pattern::PanelMesh coarse_panels(const pattern::PanelMesh& given) {
-  pattern::PanelMesh coarse = pattern::mesh_pattern(*given.source, coarse_lengths(*given.source),
-                                                    "the pattern of the panels");
+  pattern::PanelMesh coarse =
+      pattern::mesh_pattern(*given.source, pattern::lengths_for_rolls(*given.source, COARSE_EDGE),
+                            "the pattern of the panels");
   coarse.placed = interpolate(given, given.placed, coarse);
   take_over(given, coarse);
   return coarse;

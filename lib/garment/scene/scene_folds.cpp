@@ -121,19 +121,6 @@ std::vector<Message> left_out(const pattern::PanelMesh& mesh, const std::vector<
   return out;
 }
 
-/// Those of the given mesh; finer on panels that are turned over a line of the scene, where that
-/// needs it.
-pattern::MeshLengths lengths_for(const pattern::Pattern& drawn, const pattern::PanelMesh& given) {
-  pattern::MeshLengths out{.usual = given.edge_length, .seam = given.seam_length};
-  for (std::size_t p = 0; p < drawn.panels.size(); ++p) {
-    const bool is_drawn_on = drawn.panels[p].lines.size() > given.source->panels[p].lines.size();
-    out.of_panel.push_back(is_drawn_on
-                               ? pattern::edge_length_for_rolls(drawn.panels[p], given.edge_length)
-                               : given.edge_length);
-  }
-  return out;
-}
-
 } // namespace
 
 std::vector<Message> mesh_along_folds(Garment& garment, const body::Body* body,
@@ -146,7 +133,8 @@ std::vector<Message> mesh_along_folds(Garment& garment, const body::Body* body,
   if (folds.empty())
     return {};
   const pattern::PanelMesh given = garment.panels;
-  pattern::PanelMesh mesh = pattern::mesh_pattern(drawn, lengths_for(drawn, given), file);
+  pattern::PanelMesh mesh = pattern::mesh_pattern(
+      drawn, pattern::lengths_for_rolls(drawn, given.edge_length, given.seam_length), file);
   const bool is_placed_here =
       body && given.placement == pattern::Placement::BODY && given.body_sha256 == skin;
   if (is_placed_here)

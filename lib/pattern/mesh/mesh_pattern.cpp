@@ -153,6 +153,7 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
     std::vector<std::vector<Vec2>> chains(1);
     std::optional<Vec2> first; // of a closed line, where it is not left out
     int n_left_out = 0;
+    double farthest = 0; // of what is left out, from the outline
     for (int k = 0; k <= n; ++k) {
       if (k == n && first) {
         chains.back().push_back(*first);
@@ -160,6 +161,7 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
       }
       Vec2 p = arc.at(arc.length() * k / n);
       bool fits = true;
+      double to_outline = 1e300;
       for (const auto& loop : boundary.loops) {
         const auto on = std::find_if(loop.begin(), loop.end(),
                                      [&](const Vec2& q) { return (p - q).norm() < 1e-6; });
@@ -167,7 +169,8 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
           p = *on;
           break;
         }
-        fits = fits && distance_to_line(loop, true, p) > CLEAR * h;
+        to_outline = std::min(to_outline, distance_to_line(loop, true, p));
+        fits = to_outline > CLEAR * h;
       }
       for (const auto& other : out)
         fits = fits && distance_to_line(other, false, p) > CLEAR * h;
@@ -176,6 +179,7 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
         chains.back().push_back(p);
       else {
         ++n_left_out;
+        farthest = std::max(farthest, to_outline);
         chains.push_back({});
       }
       if (k == 0 && closed && fits)
@@ -184,7 +188,7 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
     for (auto& chain : chains)
       if (chain.size() >= 2)
         out.push_back(std::move(chain));
-    if (line.kind == "roll" && n_left_out + 2 > n)
+    if (line.kind == "roll" && n_left_out + 2 > n && farthest < LINE_ON_EDGE)
       continue; // along an edge, which the mesh has
     if (n_left_out > 2 ||
         n_left_out ==
@@ -228,6 +232,13 @@ struct MeshMemory::Panels {
 MeshMemory::MeshMemory() : m_panels(std::make_unique<Panels>()) {}
 MeshMemory::~MeshMemory() = default;
 MeshMemory::MeshMemory(MeshMemory&&) noexcept = default;
+
+MeshLengths lengths_for_rolls(const Pattern& pattern, double usual, double seam) {
+  MeshLengths out{.usual = usual, .seam = seam};
+  for (const Panel& panel : pattern.panels)
+    out.of_panel.push_back(edge_length_for_rolls(panel, usual));
+  return out;
+}
 
 PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::string& file,
                        double seam_length, MeshMemory* memory) {

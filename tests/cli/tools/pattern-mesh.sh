@@ -123,3 +123,39 @@ EOF
   says "is one sewn to the other?"
   [[ -s answered.json ]] || fail "not written"
 }
+
+# A roll line of the pattern 9 mm from the seam of a collar: with edges of 30 mm it was left out, and the collar folded elsewhere.
+case_a_collar_keeps_a_roll_line_near_its_outline() {
+  local makers
+  makers=$(dirname "${program%/*}")/samples
+  run 0 "$makers/make-pattern" -q shirt --body a.body.json -o plain.json
+  python3 - << 'EOF'
+import json
+
+pattern = json.load(open("plain.json"))
+collar = next(panel for panel in pattern["panels"] if panel["name"] == "collar")
+edges = {edge["edge"]: edge["path"] for edge in collar["outline"]}
+corner, curve = edges["low"]
+low = [corner[1:], curve[1:3], curve[3:5], curve[5:7]]
+corner, curve = edges["free"]
+free = [curve[5:7], curve[3:5], curve[1:3], corner[1:]]
+a, b, c, d = [[p + 0.18 * (q - p) for p, q in zip(*ends)] for ends in zip(low, free)]
+collar["lines"] = [{"name": "roll", "kind": "roll", "path": [["M"] + a, ["C"] + b + c + d]}]
+json.dump(pattern, open("rolled.json", "w"))
+EOF
+  run 0 "$program" -q --edge-length 0.03 -o plain.panels.json plain.json
+  run 0 "$program" -q --edge-length 0.03 --body a.body.json -o rolled.panels.json rolled.json
+  python3 - << 'EOF' || fail "the mesh has no edges along the roll line, or others changed"
+import json
+
+plain, rolled = (json.load(open(name + ".panels.json")) for name in ("plain", "rolled"))
+assert not any(finding["id"] == "mesh.line-left-out" for finding in rolled.get("findings", [])), rolled["findings"]
+sizes = [{panel["name"]: panel["vertices"][1] for panel in mesh["panels"]} for mesh in (plain, rolled)]
+assert sizes[1]["collar"] > 2 * sizes[0]["collar"], sizes
+assert all(sizes[0][name] == sizes[1][name] for name in sizes[0] if name not in ("collar", "stand")), sizes
+EOF
+  run 0 "${program%/*}/drape" -q --accuracy draft --body a.body.json --panels rolled.panels.json --report r.json -o s.json
+  python3 -c 'import json
+(line,) = json.load(open("r.json"))["roll_lines"]
+assert line["turned_share"] > 0.9 and line["inwards_share"] < 0.05, line' || fail "the collar stands"
+}

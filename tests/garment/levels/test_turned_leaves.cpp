@@ -80,9 +80,30 @@ struct DraftedShirt {
   Garment garment;
 };
 
-/// @param drawn  whether its pattern turns the collar over a curve at 0.3 of the way to its free
-/// edge
-DraftedShirt drafted_shirt(const std::string& figure, bool drawn) {
+/// A curve over a collar at this share of the way from its seam to its free edge, 5 cm.
+pattern::Path across_collar(const pattern::Panel& collar, double share) {
+  const auto edge = [&](const std::string& name) {
+    for (const pattern::PanelEdge& e : collar.loops[0])
+      if (e.name == name)
+        return pattern::ArcLength(e.path);
+    throw std::runtime_error("no edge " + name);
+  };
+  const pattern::ArcLength low = edge("low"), free = edge("free");
+  std::vector<Vec2> points;
+  for (int k = 0; k <= 8; ++k)
+    points.push_back((1 - share) * low.at(low.length() * k / 8) +
+                     share * free.at(free.length() * (1 - k / 8.0)));
+  return pattern::curve_through(points);
+}
+
+/// What the pattern of a drafted shirt draws in its collar.
+enum class CollarLines {
+  NONE,
+  ROLL,          ///< it is turned over a curve at 0.3 of the way to its free edge
+  MARK_AND_ROLL, ///< the same, with a mark 6 mm beside it and a mesh of 10 mm there
+};
+
+DraftedShirt drafted_shirt(const std::string& figure, CollarLines lines) {
   const samples::MadeMannequin made = samples::make_mannequin(samples::preset(figure));
   DraftedShirt out;
   out.body = body::measure_scan(made.mesh, "figure", "", {}, silent_reporter()).body;
@@ -91,30 +112,23 @@ DraftedShirt drafted_shirt(const std::string& figure, bool drawn) {
                                      samples::measures_from_body(made.truth, "figure"))),
                                  "shirt");
   const int collar = source.find_panel("collar");
-  if (drawn) {
-    const auto edge = [&](const std::string& name) {
-      for (const pattern::PanelEdge& e : source.panels[collar].loops[0])
-        if (e.name == name)
-          return pattern::ArcLength(e.path);
-      throw std::runtime_error("no edge " + name);
-    };
-    const pattern::ArcLength low = edge("low"), free = edge("free");
-    std::vector<Vec2> points;
-    for (int k = 0; k <= 8; ++k)
-      points.push_back(0.7 * low.at(low.length() * k / 8) +
-                       0.3 * free.at(free.length() * (1 - k / 8.0)));
-    source.panels[collar].lines.push_back(
-        pattern::roll_line(source, collar, "roll", pattern::curve_through(points)));
-  }
-  out.garment.panels = pattern::mesh_pattern(source, 0.02, "shirt");
+  pattern::Panel& panel = source.panels[collar];
+  if (lines == CollarLines::MARK_AND_ROLL)
+    panel.lines.push_back({"stitching", "mark", across_collar(panel, 0.42)});
+  if (lines != CollarLines::NONE)
+    panel.lines.push_back(pattern::roll_line(source, collar, "roll", across_collar(panel, 0.3)));
+  pattern::MeshLengths lengths = pattern::lengths_for_rolls(source, 0.02);
+  if (lines == CollarLines::MARK_AND_ROLL)
+    lengths.of_panel[collar] = 0.01;
+  out.garment.panels = pattern::mesh_pattern(source, lengths, "shirt");
   pattern::place_panels(source, out.body, out.garment.panels);
   out.garment.materials[""] = material_preset("cotton-poplin");
   return out;
 }
 
-void expect_turned(const Garment& garment, const DrapeReport& report) {
+void expect_turned(const Garment& garment, const DrapeReport& report, int meshes = 2) {
   EXPECT_TRUE(report.converged) << stop_text(report);
-  EXPECT_EQ(report.levels.meshes, 2) << report.levels.why;
+  EXPECT_EQ(report.levels.meshes, meshes) << report.levels.why;
   const std::vector<RollLineState> states = roll_line_states(garment);
   ASSERT_EQ(states.size(), 1u);
   EXPECT_GT(states[0].turned_share, 0.9);
@@ -125,14 +139,28 @@ void expect_turned(const Garment& garment, const DrapeReport& report) {
 
 TEST(TurnedLeaves, a_collar_turns_over_a_line_in_it_on_the_coarse_mesh_already) {
   // That mesh had no edges along the line: the collar stood, and all was sewn on the given mesh.
-  DraftedShirt shirt = drafted_shirt("f-165-plus", true);
+  DraftedShirt shirt = drafted_shirt("f-165-plus", CollarLines::ROLL);
   const DrapeReport report =
       drape(shirt.garment, &shirt.body, preset_settings("draft"), silent_reporter());
   expect_turned(shirt.garment, report);
 }
 
+TEST(TurnedLeaves, a_collar_that_stands_on_the_coarse_mesh_turns_on_the_given_one_alone) {
+  // With a mark so near to the line, the mesh of 10 mm has edges along both, the coarse one has
+  // not.
+  DraftedShirt shirt = drafted_shirt("f-165-a", CollarLines::MARK_AND_ROLL);
+  const DrapeReport report =
+      drape(shirt.garment, &shirt.body, preset_settings("draft"), silent_reporter());
+  expect_turned(shirt.garment, report, 1);
+  EXPECT_NE(report.levels.why.find("roll line roll of panel collar turned over"), std::string::npos)
+      << report.levels.why;
+  ASSERT_FALSE(report.repairs.empty());
+  EXPECT_NE(report.repairs[0].find("draped on the given mesh alone"), std::string::npos)
+      << report.repairs[0];
+}
+
 TEST(TurnedLeaves, a_collar_turns_over_a_line_of_the_scene_by_way_of_the_coarse_mesh) {
-  DraftedShirt shirt = drafted_shirt("f-165-a", false);
+  DraftedShirt shirt = drafted_shirt("f-165-a", CollarLines::NONE);
   SceneCrease crease;
   crease.run = {"collar", Vec2(0.06, 0.06), Vec2(0.94, 0.06)};
   crease.via = {Vec2(0.5, 0.62)};

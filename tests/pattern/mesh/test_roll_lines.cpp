@@ -106,17 +106,40 @@ TEST(RollLines, ACoarseMeshOfACollarHasRoomForALineInIt) {
       sum += (mesh.pattern[a] - mesh.pattern[b]).norm();
     return sum;
   };
-  EXPECT_EQ(length_along(mesh_pattern(pattern, USUAL, "t")), 0) << "all alike";
-  MeshLengths lengths{.usual = USUAL};
-  for (const Panel& panel : pattern.panels)
-    lengths.of_panel.push_back(edge_length_for_rolls(panel, USUAL));
+  const PanelMesh alike = mesh_pattern(pattern, USUAL, "t");
+  EXPECT_EQ(length_along(alike), 0);
+  const auto is_left_out = [](const Message& finding) {
+    return finding.id == std::string("mesh.line-left-out");
+  };
+  EXPECT_EQ(std::count_if(alike.findings.begin(), alike.findings.end(), is_left_out), 1)
+      << "it was taken for one along the outline, and nothing was said";
+  const MeshLengths lengths = lengths_for_rolls(pattern, USUAL);
   EXPECT_EQ(lengths.of_panel[0], USUAL) << "no roll line";
   EXPECT_NEAR(lengths.of_panel[1], 0.015, 0.001) << "as far as the line lies from the outline";
   const PanelMesh mesh = mesh_pattern(pattern, lengths, "t");
   EXPECT_GT(length_along(mesh), 0.8 * 0.44);
+  EXPECT_EQ(std::count_if(mesh.findings.begin(), mesh.findings.end(), is_left_out), 0);
   EXPECT_EQ(mesh.seams[0].a.size(), mesh.seams[0].b.size());
   EXPECT_GT(mesh.seams[0].a.size(), 25u) << "the front is as fine where it is sewn to the collar";
   EXPECT_LT(mesh.panels[0].n_vertices, 300) << "and coarse away from it";
+}
+
+TEST(RollLines, WithRoomForThemChangeNoMesh) {
+  for (const char* line :
+       {"", R"([["M", 0, 0], ["L", 44, 0]])", R"([["M", 0, 20], ["L", 44, 20]])"}) {
+    std::string leaf = rectangle("leaf", 44, 40);
+    if (*line)
+      leaf.insert(leaf.size() - 1, ", " + roll(line));
+    const Pattern pattern = own(
+        R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "leaf", "panels": [)" +
+        rectangle("front", 44, 50) + "," + leaf + R"(], "seams": [
+        {"name": "neck", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "leaf", "edge": "hem"}]}]})");
+    const PanelMesh plain = mesh_pattern(pattern, 0.015, "t", 0.01),
+                    with_room = mesh_pattern(pattern, lengths_for_rolls(pattern, 0.015, 0.01), "t");
+    EXPECT_EQ(with_room.pattern, plain.pattern) << line;
+    EXPECT_EQ(with_room.triangles, plain.triangles) << line;
+    EXPECT_EQ(with_room.seam_length, plain.seam_length) << line;
+  }
 }
 
 TEST(RollLines, AreWrittenAndReadBack) {

@@ -12,6 +12,11 @@ namespace sloper::cloth {
 using HingeSlots = std::array<int, 6>; ///< blocks (0,1) (0,2) (0,3) (1,2) (1,3) (2,3)
 /// Slots of all hinges in a matrix that has their pairs. #hinges
 std::vector<HingeSlots> find_hinge_slots(const ClothMesh& mesh, const BlockMatrix& matrix);
+/// Adds force and stiffness of one hinge whose energy depends on q = sum_k c_k x_k alone.
+/// @param moment  dE/dq, N
+/// @param k  d2E/dq2 of each coordinate, with its damping, N m times a weight
+void add_hinge_vector(const Hinge& hinge, const HingeSlots& slots, const Vec3& moment, double k,
+                      std::vector<Vec3>& force, BlockMatrix& stiffness);
 /// Sum of E over all hinges, J.
 double bending_energy(const ClothMesh& mesh, const std::vector<Vec3>& x);
 /// Adds force, stiffness and damping of all hinges. The damping time is that of the first

@@ -33,47 +33,45 @@ public:
   double energy(const std::vector<Vec3>& x) const override;
 
 private:
-  /// Particles of a plate and what its hinges make of them.
-  struct Stencil {
-    std::vector<int> particle;   // n
-    Eigen::MatrixXd coefficient; // m by n: q from the positions
-    Eigen::MatrixXd stiffness;   // n by n: of one coordinate
-    Eigen::MatrixXd of_hinges;   // n by n: what the solver gets for it without rest angles
-    std::vector<int> slot;       // of pairs a < b, row by row; with a plate of its own alone;
-                                 // -1 where no hinge has both
+  /// A plate of three hinges, as all but those at edges are, in one piece of memory: line searches
+  /// ask for its energy often.
+  struct Three {
+    std::array<int, 3> hinge;
+    std::array<double, 6> stiffness; ///< 00 01 02 11 12 22, N m times a weight
   };
-  struct Pair {
-    int i, j; // i < j, or the same
-    double stiffness;
+  /// With rest angles: the particles of a plate and their places in the matrix.
+  struct Stencil {
+    std::vector<int> particle; // n
+    std::vector<int> slot;     // of pairs a < b, row by row
   };
   /// q of a hinge with a rest angle, m.
   double turning(std::size_t hinge, const HingeAngle& angle) const {
     return angle.defined ? m_signed_length[hinge] * (angle.value - (*m_rest_angle)[hinge]) : 0;
   }
+  void sort_plates();
   Stencil stencil_of(const BendingPlate& plate) const;
-  static void add_pairs(const Stencil& stencil, const Eigen::MatrixXd& of, std::vector<Pair>& to);
-  static std::vector<Pair> sums(std::vector<Pair> pairs);
-  void add_sums(StepContext& c, double damping) const;
   void sign_lengths();
+  std::vector<Vec3> curvature_vectors(const std::vector<Vec3>& x) const;
+  void add_moments(const BendingPlate& plate, const Eigen::VectorXd& given,
+                   const std::vector<Vec3>& q);
+  void add_vectors(StepContext& c, double damping);
   double energy_of_angles(const std::vector<Vec3>& x) const;
-  void add_plate(StepContext& c, std::size_t plate, double damping);
   void add_angles(StepContext& c, double damping);
   void add_angles_of_plate(StepContext& c, std::size_t plate_index,
                            const std::vector<HingeAngle>& angle, double damping);
   void add_firmness(StepContext& c, std::size_t hinge, const HingeAngle& angle, double damping);
-  /// Whether the matrix has an entry for these two of a plate's particles.
-  bool couples(const Stencil& s, Eigen::Index a, Eigen::Index b) const {
-    return m_rest_angle || s.of_hinges(a, b) != 0;
-  }
-  bool is_constant(std::size_t plate) const { return m_plates[plate].soft_share <= 0; }
 
   const ClothMesh& m_mesh;
-  std::vector<BendingPlate> m_plates;
+  std::vector<BendingPlate> m_plates; // without rest angles: those that are not in m_threes
+  std::vector<HingeSlots> m_hinge_slots;
+  // Without rest angles.
+  std::vector<Three> m_threes;          // that do not soften
+  std::vector<Eigen::VectorXd> m_given; // by plate of m_plates: what the solver gets, by its hinges
+  std::vector<double> m_constant;  // by hinge: what the solver gets of plates that do not soften
+  std::vector<Vec3> m_moment;      // by hinge, of a step
+  std::vector<double> m_stiffness; // likewise: what the solver gets
+  // With rest angles.
   std::vector<Stencil> m_stencils;
-  // Sums of all plates whose stiffness is constant: for forces, and for the solver.
-  std::vector<Pair> m_pairs, m_hinge_pairs;
-  std::vector<int> m_pair_slots;         // of m_hinge_pairs
-  std::vector<HingeSlots> m_hinge_slots; // with rest angles
   std::optional<std::vector<double>> m_rest_angle;
   std::vector<double>
       m_signed_length; // by hinge: |e|, negative where 0 -> 1 runs against triangle 0

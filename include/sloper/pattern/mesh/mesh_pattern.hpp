@@ -17,6 +17,11 @@ struct MeshLengths {
   std::vector<double> of_panel = {};
 };
 
+/// Lengths at which each roll line of a pattern has its edges, of edge_length_for_rolls(): those of
+/// a panel turned over a line near its outline, as of a narrow collar, are shorter.
+/// @param usual, seam  m, as in MeshLengths
+MeshLengths lengths_for_rolls(const Pattern& pattern, double usual, double seam = 0);
+
 /// Panels of the last mesh, for a pattern that is meshed repeatedly while an edit changes
 /// a panel or two. A panel whose boundary and inner lines are the same to the last bit
 /// keeps its triangles, so a mesh made with a memory is the same as one without.
