@@ -213,14 +213,19 @@ std::optional<Eigen::Matrix3d> upright_turn(const TriangleMesh& scan, const Segm
     cloud.positions = spread;
     most += segment_scan(cloud, "auto").up_score;
   }
+  // Who leans in the file is set upright from there first: of a man with spread arms and legs the
+  // search below took a leg and an arm for legs.
   std::optional<Standing> best;
-  for (const Vec3& direction : search(points)) {
-    const auto found = stand_up(spread, direction);
-    if (found && (!best || found->score > best->score + 0.02))
-      best = found;
-    if (best && best->score > CLEAR)
-      break;
-  }
+  if (shows_a_person(sorted))
+    best = stand_up(spread, sorted.up);
+  if (!best || best->score <= CLEAR)
+    for (const Vec3& direction : search(points)) {
+      const auto found = stand_up(spread, direction);
+      if (found && (!best || found->score > best->score + 0.02))
+        best = found;
+      if (best && best->score > CLEAR)
+        break;
+    }
   if (!best || best->score < most)
     return std::nullopt;
   const Vec3 up = best->up;

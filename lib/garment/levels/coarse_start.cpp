@@ -210,6 +210,8 @@ std::string relax_where_placed(Garment& garment, const body::Body& body,
     return "it is to be draped as it lies";
   if (std::string why = refusal_of_soft_cloth(garment, settings); !why.empty())
     return why;
+  if (!garment.scene.empty() || !roll_line_states(garment).empty())
+    return "stiff cloth would turn back what is folded over";
   Garment cloth = garment;
   CollisionBody met(&body, SOFT_SKIN_TOLERANCE, reporter);
   met.prepare(met.ends_near(garment.position));

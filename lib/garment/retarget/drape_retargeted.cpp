@@ -1,8 +1,10 @@
 #include <sloper/garment/retarget/drape_retargeted.hpp>
 
 #include <garment/levels/coarse_start.hpp>
+#include <garment/simulate/sleeve_ends.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/retarget/retarget_pattern.hpp>
 #include <sloper/garment/sewing.hpp>
 #include <sloper/pattern/edit/edits.hpp>
@@ -62,7 +64,12 @@ public:
     DrapeReport relaxing;
     if (relax(relaxing)) {
       DrapeReport report = drape_relaxed(relaxing);
-      return is_enough(report, tangled) ? report : start_again(placed, std::move(report), true);
+      const bool enough = is_enough(report, tangled);
+      if (report.misfit != Misfit::NONE && !is_out_of_time()) { // relaxing may have led to it
+        Garment of_first = std::exchange(m_retargeted.garment, placed);
+        return better(std::move(report), std::move(of_first), drape_placed(), false);
+      }
+      return enough ? report : start_again(placed, std::move(report), true);
     }
     if (tangled && !m_retargeted.has_folded_sleeves && make_panels(placed).empty()) {
       DrapeReport report = sew_anew(placed, "the placed garment crosses body or cloth");
@@ -76,12 +83,25 @@ public:
   }
 
 private:
-  /// @return false where the garment cannot be relaxed softly, and is as it was placed
+  /// @return false where the garment is not relaxed softly, and is as it was placed
   bool relax(DrapeReport& report) {
-    if (m_retargeted.has_folded_sleeves)
-      return false; // their ends would creep over the hands
-    return relax_where_placed(m_retargeted.garment, m_from.body, m_settings, m_reporter, report)
-        .empty();
+    Garment& garment = m_retargeted.garment;
+    const Garment& source = m_from.source;
+    const bool hangs_there = !source.body_sha256.empty() &&
+                             source.body_sha256 == garment.body_sha256 &&
+                             m_from.mode == RetargetMode::KEEP_FABRIC;
+    // ends of sleeves that are held at the wrists would creep over the hands
+    if (hangs_there || m_retargeted.has_folded_sleeves)
+      return false;
+    const Garment placed = garment;
+    if (!relax_where_placed(garment, m_from.body, m_settings, m_reporter, report).empty())
+      return false;
+    // a cuff that was pushed on a hand stays there, stretched
+    if (!stretched_place(stretch_of(garment)) &&
+        ends_pushed_on_hands(garment, placed.position, source.position).empty())
+      return true;
+    garment = placed;
+    return false;
   }
 
   bool is_enough(const DrapeReport& report, bool tangled) {

@@ -55,6 +55,17 @@ TEST(Upright, who_stands_or_leans_a_little_is_left_so) {
   EXPECT_FALSE(upright_turn(leaning, segment_scan(leaning, "auto")));
 }
 
+TEST(Upright, who_leans_more_is_set_upright_from_there) {
+  const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())}) {
+    const Eigen::Matrix3d lean = Eigen::AngleAxisd(0.15, axis).toRotationMatrix();
+    const TriangleMesh leaning = test::moved(mesh, lean, Vec3::Zero());
+    const auto upright = upright_turn(leaning, segment_scan(leaning, "auto"));
+    ASSERT_TRUE(upright);
+    EXPECT_GT((*upright * lean * Vec3::UnitY()).y(), std::cos(0.02));
+  }
+}
+
 TEST(Upright, who_lies_askew_is_set_on_both_soles) {
   const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
   const Eigen::Matrix3d turn =
