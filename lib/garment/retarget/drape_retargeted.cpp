@@ -4,7 +4,6 @@
 #include <garment/simulate/sleeve_ends.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/garment/drape/drape.hpp>
-#include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/retarget/retarget_pattern.hpp>
 #include <sloper/garment/sewing.hpp>
 #include <sloper/pattern/edit/edits.hpp>
@@ -96,9 +95,7 @@ private:
     const Garment placed = garment;
     if (!relax_where_placed(garment, m_from.body, m_settings, m_reporter, report).empty())
       return false;
-    // a cuff that was pushed on a hand stays there, stretched
-    if (!stretched_place(stretch_of(garment)) &&
-        ends_pushed_on_hands(garment, placed.position, source.position).empty())
+    if (ends_pushed_on_hands(garment, placed.position, source.position).empty())
       return true;
     garment = placed;
     return false;
