@@ -27,12 +27,12 @@ struct RetargetedFrom {
 /// effects are known to that (DrapeSettings::levels above 1, no pleats, roll lines or scene
 /// effects), unless it is the same cloth on its own body or its sleeves reach over the hands. Folds
 /// of the placing, crossings among them, go flat, and drapes whose placing differs by a micrometre
-/// end 0.3 to 3 mm apart, not 1 to 8. The second start is its panels, placed around the body and
-/// sewn on a coarse mesh. It is tried where the first drape ends in crossings or moves no further,
-/// with KEEP_FABRIC also at the step limit, and where a tangled garment (Retargeted::is_tangled) is
-/// not worn well from the first. What cannot be relaxed is draped as it was placed; tangled, its
-/// panels come first, unless its sleeves are folded, since only the placed garment keeps them.
-/// `repairs` of the report says what was done.
+/// end 0.4 mm apart in the median, not 4. The second start is its panels, placed around the body
+/// and sewn on a coarse mesh. It is tried where the first drape ends in crossings or moves no
+/// further, with KEEP_FABRIC also at the step limit, and where a tangled garment
+/// (Retargeted::is_tangled) is not worn well from the first. What cannot be relaxed is draped as it
+/// was placed; tangled, its panels come first, unless its sleeves are folded, since only the placed
+/// garment keeps them. `repairs` of the report says what was done.
 ///
 /// @param retargeted  of retarget() or widen_strained_pieces(); out: the state reached, of the same
 /// particles
