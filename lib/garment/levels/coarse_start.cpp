@@ -220,7 +220,6 @@ std::string relax_where_placed(Garment& garment, const body::Body& body,
     return "placed cloth diverged";
   report.steps += PLACED_RELAXING.steps;
   clear_of_skin(cloth, *met.collider(), CLEARANCE * settings.contact_gap_m);
-  lay_leaves_over(cloth, LEAF_GAP);
   report.phases.emplace_back("relax where placed", seconds_since(began));
   report.wall_s += seconds_since(began);
   garment = std::move(cloth);

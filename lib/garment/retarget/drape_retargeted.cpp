@@ -70,7 +70,7 @@ public:
       }
       return enough ? report : start_again(placed, std::move(report), true);
     }
-    if (tangled && !m_retargeted.has_folded_sleeves && make_panels(placed).empty()) {
+    if (tangled && m_retargeted.folded == LimbEnds::NONE && make_panels(placed).empty()) {
       DrapeReport report = sew_anew(placed, "the placed garment crosses body or cloth");
       if (is_enough(report, tangled))
         return report;
@@ -90,7 +90,7 @@ private:
                              source.body_sha256 == garment.body_sha256 &&
                              m_from.mode == RetargetMode::KEEP_FABRIC;
     // ends of sleeves that are held at the wrists would creep over the hands
-    if (hangs_there || m_retargeted.has_folded_sleeves)
+    if (hangs_there || m_retargeted.folded != LimbEnds::NONE)
       return false;
     const Garment placed = garment;
     if (!relax_where_placed(garment, m_from.body, m_settings, m_reporter, report).empty())

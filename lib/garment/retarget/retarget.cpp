@@ -5,6 +5,7 @@
 #include <garment/bind/bind_laplacian.hpp>
 #include <garment/bind/body_sides.hpp>
 #include <garment/retarget/keep_ease.hpp>
+#include <garment/retarget/leg_ends.hpp>
 #include <garment/retarget/retarget_grade.hpp>
 #include <garment/retarget/seat.hpp>
 #include <garment/simulate/sleeve_ends.hpp>
@@ -398,18 +399,30 @@ Retargeted retarget(const Garment& garment, const body::Body& to,
   PlacementReport& report = result.report;
   measure(report.stretch_p01, report.stretch_p50, report.stretch_p99);
   report.placed = state_of(g.position, triangles, skin);
-  const std::vector<Vec3> placed = g.position;
+  std::vector<Vec3> placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is
   // regraded to where the skin lets it lie.
   const std::vector<Vec3>& shape = keep_fit ? placed : garment.position;
   report.clear_rounds = settle_shape(g.position, {shape, triangles, hangs_from}, met, g.offset_m);
-  if (const std::vector<int> pushed = ends_pushed_on_hands(g, placed, garment.position);
-      !pushed.empty()) {
-    g.position = placed;
-    report.clear_rounds += settle_shape(g.position, {shape, triangles, pushed}, met, g.offset_m);
-    result.has_folded_sleeves = true;
+  std::vector<int> pushed = ends_pushed_on_hands(g, placed, garment.position);
+  if (!pushed.empty()) {
+    result.folded = LimbEnds::SLEEVES;
     reporter.info(
         "a sleeve is longer than the arm and narrower than the hand: its end stays at the wrist");
+  }
+  std::vector<Triangle> through;
+  for (int f : met.faces_through(g.position, triangles))
+    through.push_back(triangles[f]);
+  if (const std::vector<int> ends = raise_ends_off_feet(placed, garment, to, through);
+      !ends.empty()) {
+    result.folded = LimbEnds::SLEEVES_AND_LEGS;
+    reporter.info("legs are longer than those of the body: their ends stay at the ankles");
+    pushed.insert(pushed.end(), ends.begin(), ends.end());
+  }
+  if (!pushed.empty()) {
+    g.position = placed;
+    pushed.insert(pushed.end(), hangs_from.begin(), hangs_from.end());
+    report.clear_rounds += settle_shape(g.position, {shape, triangles, pushed}, met, g.offset_m);
   }
   if (keep_fit)
     grade(result, garment, as_near_as_placed(g.position, placed, skin, g.offset_m), to);

@@ -50,7 +50,7 @@ private:
 
   void drape_until_it_fits() {
     const DrapeRequest request{.bounds = early_termination_bounds(m_job.policy, m_out.fit),
-                               .start = {.hold_sleeve_ends = m_out.retargeted.has_folded_sleeves}};
+                               .start = {.hold_ends = m_out.retargeted.folded}};
     DrapeSettings settings = m_job.settings;
     for (;;) {
       drape_once(settings, request);

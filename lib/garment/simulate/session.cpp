@@ -64,10 +64,10 @@ void DrapeSession::begin() {
   if (m_move.moves())
     m_context.telemetry.activate("body_motion", "the body moves");
   start_outside_body(unsewn);
-  m_context.disturbed =
-      unsewn || m_context.body.state().scale < 1 || m_start.hold_sleeve_ends || m_start.relax_first;
+  m_context.disturbed = unsewn || m_context.body.state().scale < 1 ||
+                        m_start.hold_ends != LimbEnds::NONE || m_start.relax_first;
   if (!unsewn && m_context.disturbed)
-    m_context.supports.find_sleeve_ends();
+    m_context.supports.find_ends(std::max(m_start.hold_ends, LimbEnds::SLEEVES));
   m_index = unsewn ? 0 : INFLATE_INDEX;
 }
 

@@ -94,6 +94,7 @@ PenetrationResolver::State PenetrationResolver::State::read(const io::Node& node
 
 void TemporarySupports::State::write(io::Json& state) const {
   state["held"] = io::flat_points(held);
+  state["held_legs"] = ends == LimbEnds::SLEEVES_AND_LEGS;
   state["tucks"] = tangles;
 }
 
@@ -102,6 +103,10 @@ TemporarySupports::State TemporarySupports::State::read(const io::Node& node,
   State state;
   if (node.has("held"))
     state.held = io::read_flat_points(node.at("held"));
+  if (!state.held.empty())
+    state.ends = node.has("held_legs") && node.at("held_legs").boolean()
+                     ? LimbEnds::SLEEVES_AND_LEGS
+                     : LimbEnds::SLEEVES;
   if (node.has("tucks"))
     state.tangles = io::read_integers(node.at("tucks"));
   for (int i : state.tangles)

@@ -74,10 +74,11 @@ void TemporarySupports::remove_inflation_pressure() {
   remove_temporary_effect(m_pressure);
 }
 
-void TemporarySupports::find_sleeve_ends() {
+void TemporarySupports::find_ends(LimbEnds ends) {
   if (!may_help("pins"))
     return;
-  for (const cloth::Pin& pin : hold_sleeve_ends(m_cloth.garment()))
+  m_state.ends = ends;
+  for (const cloth::Pin& pin : hold_ends(m_cloth.garment(), ends))
     m_state.held.push_back(pin.target);
 }
 
@@ -115,13 +116,16 @@ void TemporarySupports::find_tangles() {
 
 void TemporarySupports::apply() {
   if (!m_state.held.empty()) {
-    std::vector<cloth::Pin> pins = hold_sleeve_ends(m_cloth.garment());
+    std::vector<cloth::Pin> pins = hold_ends(m_cloth.garment(), m_state.ends);
     if (!pins.empty() && pins.size() == m_state.held.size()) {
       for (std::size_t k = 0; k < pins.size(); ++k)
         pins[k].target = m_state.held[k];
       if (!m_cloth.is_active("pins"))
         m_telemetry.activate(
-            "pins", "sleeve ends are held at the wrists until the cloth above has found its folds");
+            "pins",
+            m_state.ends == LimbEnds::SLEEVES
+                ? "sleeve ends are held at the wrists until the cloth above has found its folds"
+                : "ends of sleeves and legs are held until the cloth above has found its folds");
       m_hold = &m_cloth.solver().emplace<cloth::PinsEffect>(std::move(pins));
     }
   }
@@ -133,7 +137,7 @@ void TemporarySupports::apply() {
   m_cloth.self_contact()->let_pass(std::move(passes));
 }
 
-void TemporarySupports::release_sleeve_ends() {
+void TemporarySupports::release_ends() {
   remove_temporary_effect(m_hold);
   m_state.held.clear();
 }

@@ -36,10 +36,10 @@ const EffectReport& pins(const DrapeReport& report) {
 TEST(SleeveEnds, only_what_ends_near_the_wrist_is_held_and_of_that_the_last_3_cm) {
   body::Body pillar = make_pillar();
   Garment garment = hung(pillar);
-  EXPECT_TRUE(hold_sleeve_ends(garment).empty()) << "it is not bound";
+  EXPECT_TRUE(hold_ends(garment, LimbEnds::SLEEVES).empty()) << "it is not bound";
   for (const double past_wrist : {-0.1, 0.0, 0.07}) {
     garment.bind = bind_as_sleeve(garment, lowest(garment) + past_wrist);
-    const std::vector<cloth::Pin> held = hold_sleeve_ends(garment);
+    const std::vector<cloth::Pin> held = hold_ends(garment, LimbEnds::SLEEVES);
     const auto low = std::count_if(garment.position.begin(), garment.position.end(),
                                    [&](const Vec3& p) { return p.y() < lowest(garment) + 0.03; });
     EXPECT_GT(low, 5);
@@ -48,17 +48,17 @@ TEST(SleeveEnds, only_what_ends_near_the_wrist_is_held_and_of_that_the_last_3_cm
       EXPECT_EQ(pin.target, garment.position[pin.particle]);
   }
   garment.bind = bind_as_sleeve(garment, lowest(garment) + 0.09);
-  EXPECT_TRUE(hold_sleeve_ends(garment).empty()) << "it covers the hand";
+  EXPECT_TRUE(hold_ends(garment, LimbEnds::SLEEVES).empty()) << "it covers the hand";
   garment.bind = bind_as_sleeve(garment, lowest(garment));
   garment.bind.frames = {"upper_arm_l"};
-  EXPECT_TRUE(hold_sleeve_ends(garment).empty()) << "it ends above the elbow";
+  EXPECT_TRUE(hold_ends(garment, LimbEnds::SLEEVES).empty()) << "it ends above the elbow";
 }
 
 TEST(SleeveEnds, that_slid_onto_a_hand_and_are_held_open_by_it_are_told) {
   body::Body pillar = make_pillar();
   Garment garment = hung(pillar);
   garment.bind = bind_as_sleeve(garment, lowest(garment));
-  const std::size_t n_held = hold_sleeve_ends(garment).size();
+  const std::size_t n_held = hold_ends(garment, LimbEnds::SLEEVES).size();
   const std::vector<Vec3> placed = garment.position;
   const double end = lowest(garment) + 0.03;
   const auto moved = [&](double down, double wider) {
@@ -82,7 +82,7 @@ TEST(SleeveEnds, are_held_on_a_shorter_arm_until_there_are_folds_above) {
   for (Vec3& p : garment.position)
     p.y() = top + 0.85 * (p.y() - top);
   const DrapeReport report =
-      drape(garment, &pillar, {}, silent_reporter(), {.start = {.hold_sleeve_ends = true}});
+      drape(garment, &pillar, {}, silent_reporter(), {.start = {.hold_ends = LimbEnds::SLEEVES}});
   EXPECT_TRUE(report.converged) << stop_text(report);
   EXPECT_GE(pins(report).calls, 40) << "steps without weight and friction";
   EXPECT_LT(pins(report).calls, report.steps);

@@ -8,6 +8,7 @@
 #include <sloper/body/body.hpp>
 #include <sloper/collision/body_collider.hpp>
 #include <sloper/garment/garment.hpp>
+#include <sloper/garment/simulate/request.hpp>
 #include <sloper/io/json_fwd.hpp>
 
 namespace sloper::garment {
@@ -97,9 +98,9 @@ struct Retargeted {
   /// is false.
   Garment garment;
   std::vector<Vec3> placed; ///< #P by 3, m: by coordinates alone, not yet seated lower
-  /// Longer than the arms, and their ends are at the wrists: for
-  /// StartFacts::hold_sleeve_ends.
-  bool has_folded_sleeves = false;
+  /// Sleeves or legs that are longer than the limbs in them, with their ends at wrists or ankles:
+  /// for StartFacts::hold_ends.
+  LimbEnds folded = LimbEnds::NONE;
   /// Ease that the same cloth had on the first body, by girth: close ones (keep_ease.hpp).
   std::map<std::string, double> source_ease_m = {};
   bool is_tangled = false; ///< the garment crosses body or cloth, though it was cleared

@@ -41,11 +41,14 @@ struct Checkpoints {
   const LevelsProgress* levels = nullptr;
 };
 
+/// Of which limbs the ends of a garment are held.
+enum class LimbEnds { NONE, SLEEVES, SLEEVES_AND_LEGS };
+
 /// Facts about the garment's start that the caller knows and no drape can see.
 struct StartFacts {
-  /// Sleeves are longer than the arms and their ends are at the wrists (retarget()): they are held
-  /// there until the cloth above them has found its folds (sleeve_ends.hpp).
-  bool hold_sleeve_ends = false;
+  /// What is longer than the limbs in it and has its ends at wrists or ankles (retarget()): they
+  /// are held there until the cloth above them has found its folds (sleeve_ends.hpp).
+  LimbEnds hold_ends = LimbEnds::NONE;
   /// The cloth is strained by how it was put there, by tucking one layer below another
   /// (drape_layers()): it first relaxes free of weight and friction, which would keep that strain.
   bool relax_first = false;

@@ -4,6 +4,7 @@
 /// through itself. They come with effects = auto only, and not where they are switched
 /// off.
 #include <sloper/garment/simulate/penetration_resolver.hpp>
+#include <sloper/garment/simulate/request.hpp>
 #include <sloper/garment/simulate/simulated_cloth.hpp>
 #include <sloper/io/json_fwd.hpp>
 
@@ -17,8 +18,9 @@ class TemporarySupports {
 public:
   /// State that a checkpoint keeps.
   struct State {
-    std::vector<Vec3> held;   ///< m, where sleeve ends are held (sleeve_ends.hpp)
-    std::vector<int> tangles; ///< particles that may pass through each other
+    LimbEnds ends = LimbEnds::NONE; ///< that are held (sleeve_ends.hpp)
+    std::vector<Vec3> held;         ///< m, where
+    std::vector<int> tangles;       ///< particles that may pass through each other
 
     /// Adds its keys to a checkpoint's object; read() is the inverse.
     void write(io::Json& state) const;
@@ -36,17 +38,17 @@ public:
   /// Ends the pressure; nothing where there is none.
   void remove_inflation_pressure();
 
-  /// Holds sleeve ends where they are now, from the next apply() on.
-  void find_sleeve_ends();
+  /// Holds ends where they are now, from the next apply() on.
+  void find_ends(LimbEnds ends);
   /// Where seams meet, panels that were drawn together may be tucked into each other, and once
   /// nothing crosses contact would keep them so. What crosses, and cloth around it, passes through
   /// itself until weight comes; bending and pressure smooth it meanwhile. Where only a little
   /// crosses, it is drawn apart for good: letting that pass too left knots in arm pits.
   void find_tangles();
-  /// Holds sleeve ends and lets tangles pass, on a solver that was just built.
+  /// Holds ends and lets tangles pass, on a solver that was just built.
   void apply();
-  /// Ends what find_sleeve_ends() began; nothing where it found nothing.
-  void release_sleeve_ends();
+  /// Ends what find_ends() began; nothing where it found nothing.
+  void release_ends();
   /// Ends what find_tangles() began: self-contact acts everywhere again, and remaining
   /// crossings are drawn apart.
   void close_tangles();

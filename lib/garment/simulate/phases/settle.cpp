@@ -141,7 +141,7 @@ void SettlePhase::prepare_step(SimContext& context) {
   if (m_state.step == unloaded) {
     context.supports.remove_inflation_pressure();
     context.supports.close_tangles();
-    context.supports.release_sleeve_ends();
+    context.supports.release_ends();
     context.cloth.add_load();
     m_state.h = context.settings.time_step_s;
   }
