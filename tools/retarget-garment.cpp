@@ -205,6 +205,8 @@ int run(cli::Tool& tool, Options o) {
     const std::vector<std::string> files = garment::sizes_beside(o.garment);
     sizes = garment::rank_sizes(files, body,
                                 garment::girths_covered(garment::read_garment(o.garment), body));
+    if (mode == garment::RetargetMode::KEEP_FABRIC)
+      garment::put_closing_sizes_first(sizes, body);
     o.garment = sizes.sizes.front().file;
     tool.reporter().info(garment::ranking_text(sizes));
   }

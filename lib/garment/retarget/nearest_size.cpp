@@ -1,6 +1,7 @@
 #include <sloper/garment/retarget/nearest_size.hpp>
 
 #include <garment/fit/fit_places.hpp>
+#include <garment/retarget/seat.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/text.hpp>
 #include <sloper/garment/bind/bind.hpp>
@@ -18,6 +19,7 @@ namespace sloper::garment {
 namespace {
 
 constexpr double LEAST_SPREAD_M = 0.002; // of a girth: nothing is known better
+constexpr double MOST_SHORT = 0.03;      // of the waist: too_small_ease of the policy for wovens
 
 /// Before the name of a level in Garment::body_girths_m.
 const std::string LEVEL = "level:";
@@ -164,12 +166,60 @@ SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& 
   return ranking;
 }
 
+static double waist_shortage(const Garment& garment, const body::Body& body) {
+  if (garment.bind.empty() || !why_impossible(garment, body).empty())
+    return 0;
+  Garment placed = garment;
+  placed.position = place_garment(garment, body, Waist::SEMANTIC);
+  return seat_of_waist(placed, garment.position, body).short_share;
+}
+
+/// Standard deviation of a waist girth, a share of it.
+static double waist_spread(const body::Body& body) {
+  const auto known = girths_known(body);
+  const auto waist = known.find(LEVEL + "waist_semantic");
+  return waist == known.end() ? 0 : waist->second.spread_m / waist->second.value_m;
+}
+
+void put_closing_sizes_first(SizeRanking& ranking, const body::Body& body) {
+  if (ranking.sizes.size() < 2)
+    return;
+  for (SizeRank& size : ranking.sizes)
+    size.short_share = waist_shortage(read_garment(size.file), body);
+  const std::string nearest = ranking.sizes.front().file;
+  std::stable_sort(
+      ranking.sizes.begin(), ranking.sizes.end(), [](const SizeRank& a, const SizeRank& b) {
+        return std::max(a.short_share, MOST_SHORT) < std::max(b.short_share, MOST_SHORT);
+      });
+  if (ranking.sizes.front().file == nearest)
+    return;
+  const auto passed_over = std::find_if(ranking.sizes.begin(), ranking.sizes.end(),
+                                        [&](const SizeRank& size) { return size.file == nearest; });
+  const double beyond = passed_over->short_share - MOST_SHORT;
+  const double spread = waist_spread(body);
+  ranking.sureness = spread > 0 ? 0.5 * std::erfc(-beyond / (spread * std::sqrt(2.0))) : 1;
+}
+
+static std::string why_first(const SizeRanking& ranking) {
+  const SizeRank& first = ranking.sizes.front();
+  const bool is_nearest =
+      std::none_of(ranking.sizes.begin(), ranking.sizes.end(),
+                   [&](const SizeRank& size) { return size.distance < first.distance; });
+  if (is_nearest)
+    return " is nearest";
+  return first.short_share > MOST_SHORT ? " is the least short at the waist"
+                                        : " is the nearest that closes at the waist";
+}
+
 std::string ranking_text(const SizeRanking& ranking) {
   const auto one = [&](const SizeRank& size) {
-    return io::file_name(size.file) + " (" + percent(size.distance) + " off)";
+    return io::file_name(size.file) + " (" + percent(size.distance) + " off" +
+           (size.short_share > 0 ? ", too short at the waist by " + percent(size.short_share)
+                                 : "") +
+           ")";
   };
   std::string text = "of " + std::to_string(ranking.sizes.size()) + " sizes " +
-                     one(ranking.sizes.front()) + " is nearest";
+                     one(ranking.sizes.front()) + why_first(ranking);
   if (ranking.sizes.size() > 1)
     text += ", with a probability of " + whole_percent(ranking.sureness) + "; then";
   for (std::size_t i = 1; i < ranking.sizes.size(); ++i)
@@ -182,8 +232,10 @@ io::Json ranking_json(const SizeRanking& ranking) {
                 {"compared", ranking.compared},
                 {"nearest_first", io::Json::array()}};
   for (const SizeRank& size : ranking.sizes)
-    j["nearest_first"].push_back(
-        {{"file", io::file_name(size.file)}, {"distance", size.distance}, {"girths", size.girths}});
+    j["nearest_first"].push_back({{"file", io::file_name(size.file)},
+                                  {"distance", size.distance},
+                                  {"girths", size.girths},
+                                  {"short_share", size.short_share}});
   return j;
 }
 

@@ -23,23 +23,26 @@ double closed_length(const std::vector<Vec3>& position, const std::vector<int>& 
   return length;
 }
 
-/// The level below an edge at which it is worn, m from its place.
-double level_below(const EdgeLine& edge, double closes_at, const body::Body& body) {
+/// A level at which an edge is worn.
+struct Level {
+  double below_m, girth_m; ///< from its place; of the body there
+};
+
+/// The level below an edge at which it is worn.
+Level level_below(const EdgeLine& edge, double closes_at, const body::Body& body) {
+  Level seat{0, edge.place.body_m};
   if (edge.place.body_m <= closes_at)
-    return 0;
-  double narrowest = (1 - WORTH_LOWERING) * edge.place.body_m;
-  double seat = 0;
+    return seat;
+  const double worth_it = (1 - WORTH_LOWERING) * edge.place.body_m;
   for (double below = SEAT_STRIDE; below <= SEAT_REACH; below += SEAT_STRIDE) {
     const Vec3 center = edge.place.center - below * edge.place.normal;
     const double girth = skin_girth(body, edge.parts, center, edge.place.normal);
     if (!(girth > 0))
       return seat;
-    if (girth < narrowest) {
-      narrowest = girth;
-      seat = below;
-    }
+    if (girth < std::min(seat.girth_m, worth_it))
+      seat = {below, girth};
     if (girth <= closes_at)
-      return below;
+      return {below, girth};
   }
   return seat;
 }
@@ -60,7 +63,8 @@ Seat seat_of_waist(const Garment& placed, const std::vector<Vec3>& source, const
     // Cloth lies off the skin by its offset, so a ring around it is that much longer.
     const double closes_at = std::max(edge->line.rest, closed_length(source, edge->particles)) -
                              2 * units::PI * placed.offset_m;
-    return {level_below(*edge, closes_at, to), edge->particles};
+    const Level level = level_below(*edge, closes_at, to);
+    return {level.below_m, std::max(0.0, 1 - closes_at / level.girth_m), edge->particles};
   }
   return {};
 }

@@ -10,7 +10,9 @@ namespace sloper::garment {
 
 /// Where the top edge of a skirt or of trousers is worn.
 struct Seat {
-  double below_m = 0;    ///< under where it was placed, 0 to 0.1
+  double below_m = 0; ///< under where it was placed, 0 to 0.1
+  double short_share =
+      0;                 ///< by how much the top edge does not close there, of the girth; 0: closes
   std::vector<int> edge; ///< particles of the top edge, in order; none for another class
 };
 

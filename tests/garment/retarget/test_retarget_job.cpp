@@ -1,6 +1,7 @@
 /// The whole of a retargeting: what is draped, what is let out, what is refused before a drape.
 #include "worn_skirt.hpp"
 
+#include <sloper/garment/garment_json.hpp>
 #include <sloper/garment/retarget/nearest_size.hpp>
 #include <sloper/garment/retarget/retarget_job.hpp>
 
@@ -82,6 +83,30 @@ TEST_F(ARetargetedSkirt, that_is_only_placed_says_so) {
   EXPECT_FALSE(outcome.was_draped());
   EXPECT_EQ(outcome.report.stop_reason, StopReason::PLACED_ONLY);
   EXPECT_EQ(outcome.fit.state, "placed");
+}
+
+TEST_F(ARetargetedSkirt, that_does_not_close_at_the_waist_comes_after_a_size_that_does) {
+  const Figure other("f-165-plus");
+  const test::ScratchFolder folder;
+  Garment wide = *s_skirt;
+  for (Vec3& p : wide.position)
+    p = Vec3(1.4 * p.x(), p.y(), 1.4 * p.z());
+  write_garment(folder / "skirt@S.json", *s_skirt, "test");
+  write_garment(folder / "skirt@L.json", wide, "test");
+  SizeRanking ranking;
+  ranking.sizes = {{.file = folder / "skirt@S.json", .distance = 0.01, .girths = 1},
+                   {.file = folder / "skirt@L.json", .distance = 0.02, .girths = 1}};
+  const SizeRanking by_distance = ranking;
+  put_closing_sizes_first(ranking, other.body);
+  EXPECT_EQ(ranking.sizes[0].file, by_distance.sizes[1].file);
+  EXPECT_GT(ranking.sizes[1].short_share, 0.03);
+  EXPECT_LE(ranking.sizes[0].short_share, 0.03);
+  EXPECT_NE(ranking_text(ranking).find("is the nearest that closes at the waist"),
+            std::string::npos);
+
+  ranking = by_distance; // on a slimmer body both close
+  put_closing_sizes_first(ranking, Figure("f-160-a").body);
+  EXPECT_EQ(ranking.sizes[0].file, by_distance.sizes[0].file);
 }
 
 TEST_F(ARetargetedSkirt, is_chosen_by_the_girths_that_it_goes_round) {

@@ -17,12 +17,16 @@ struct SizeRank {
   /// was draped on and the other: of the girths and levels compared that both have.
   double distance = 0;
   int girths = 0; ///< how many
+  /// By how much its top edge does not close on the other body, a share of the girth there:
+  /// put_closing_sizes_first(); 0 where it closes.
+  double short_share = 0;
 };
 /// All sizes in order.
 struct SizeRanking {
   std::vector<SizeRank> sizes; ///< the nearest first; by name where they are as near
   /// How likely the first is nearer than the second, given what the girths of the body are
-  /// uncertain by (taken as independent and normal); 1 where there is one size.
+  /// uncertain by (taken as independent and normal); 1 where there is one size. Where the second is
+  /// nearer, but too short at the top edge: how likely it is too short.
   double sureness = 1;
   std::vector<std::string> compared; ///< names of the girths that were compared
 };
@@ -47,6 +51,13 @@ std::set<std::string> girths_covered(const Garment& garment, const body::Body& b
 /// @throws Error INPUT: a document that is no garment, or does not know its body's girths
 SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& body,
                        const std::set<std::string>& compared = {});
+
+/// Moves sizes of skirts and trousers that do not close at the waist behind those that do: a band
+/// that is shorter than the waist by more than 3 % is refused by the fit however near the hip is.
+/// Among those that do not close the least short comes first. Each size is placed on the body by
+/// its coordinates (seat.hpp). Cost: the reading of each garment, and about 20 ms.
+/// @param ranking  of rank_sizes(), in and out
+void put_closing_sizes_first(SizeRanking& ranking, const body::Body& body);
 
 /// "of 3 sizes shirt@M.json is nearest (2.1 %), with a probability of 93 %; then ..."
 std::string ranking_text(const SizeRanking& ranking);
