@@ -150,6 +150,7 @@ int run(cli::Tool& tool, const Options& o) {
                          std::to_string(1e3 * s.m_per_pixel) + " mm a pixel");
   }
   const garment::MaterialFit fit = garment::fit_material(tests, tool.reporter());
+  tool.require_not_stopped(o.output);
   io::write_json(o.output, garment::material_fit_json(fit, tests, tool.name()));
   for (const std::string& what : fit.cannot_tell)
     tool.reporter().warning({"drapemeter.cannot-tell"_id, "cannot tell " + what});

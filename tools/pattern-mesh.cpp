@@ -79,7 +79,7 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
 }
 
 /// Findings of a pattern that can be sewn nevertheless, into the mesh and as warnings.
-/// @returns the first edge that is left open though the seams about it say that it goes on
+/// @returns the first edge that is left open though the seams beside it ask for a seam there
 std::optional<Message> tell_faults(cli::Tool& tool, const pattern::Pattern& source,
                                    pattern::PanelMesh& mesh) {
   std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
@@ -177,6 +177,17 @@ double metres_per(const std::string& unit) {
   return unit == "m" ? 1 : 0;
 }
 
+/// A unit that was stated on the command line and makes the garment one of a giant or a doll is
+/// wrong. @throws Error INPUT
+void refuse_unit(const pattern::Pattern& source, const Options& o) {
+  if (o.unit.empty())
+    return;
+  for (const pattern::PatternFinding& finding : pattern::check_pattern(source))
+    if (finding.rule == "wrong-unit")
+      throw input_error("pattern.wrong-unit"_id, o.pattern, finding.place + ", --unit " + o.unit,
+                        finding.fact);
+}
+
 int run(cli::Tool& tool, const Options& o) {
   pattern::PatternChoice choice{o.sewing,           o.size,      o.grade_rules,
                                 metres_per(o.unit), o.allowance, names_in(o.pieces),
@@ -222,6 +233,7 @@ int run(cli::Tool& tool, const Options& o) {
     pattern::cut_shoulder_folds(source);
     edits = nullptr;
   }
+  refuse_unit(source, o);
   pattern::require_sewable(source, o.pattern);
   const auto mesh_source = [&] {
     return pattern::mesh_pattern(

@@ -164,9 +164,7 @@ void draw_views(cli::Tool& tool, const Options& o, Drawing drawing) {
   if (o.as != "files")
     render::check_pixels({options.width, options.height}, views.size());
   for (const auto& view : views) {
-    if (tool.reporter().stop_requested())
-      throw Error(ErrorKind::FAILED, "general.stopped"_id, o.output, "",
-                  "stopped by the user; nothing is written");
+    tool.require_not_stopped(o.output);
     tool.reporter().progress("draw", static_cast<double>(drawn + images.size()) /
                                          static_cast<double>(views.size()));
     if (!view) {

@@ -27,8 +27,11 @@ using namespace sloper::retarget_options;
 
 namespace {
 
-void write_fit(const Options& o, const garment::FitReport& fit, const std::string& tool,
-               bool converged, const io::Json& inputs) {
+/// @param findings  of the garment and of this run; of the garment those of pattern-mesh come first
+void write_fit(const Options& o, garment::FitReport fit, const std::vector<Message>& findings,
+               const std::string& tool, bool converged, const io::Json& inputs) {
+  fit.mode = o.mode;
+  fit.findings = findings;
   if (!o.fit.empty()) {
     io::Json document = garment::fit_json(fit, tool);
     document["converged"] = converged;
@@ -40,6 +43,15 @@ void write_fit(const Options& o, const garment::FitReport& fit, const std::strin
   if (!o.fit_page.empty())
     io::write_file(o.fit_page,
                    garment::fit_page(fit, io::file_name(o.garment), io::file_name(o.to)));
+}
+
+/// What a reader of the fit report alone has to know: what pattern-mesh found on the garment, then
+/// what this run found.
+std::vector<Message> fit_findings(const garment::Garment& source,
+                                  const std::vector<Message>& of_run) {
+  std::vector<Message> findings = source.panels.findings;
+  findings.insert(findings.end(), of_run.begin(), of_run.end());
+  return findings;
 }
 
 /// The answer is no: said on stderr, with the state that was written, exit 1 under a policy, else
@@ -195,8 +207,7 @@ int run(cli::Tool& tool, Options o) {
     garment::set_knob(settings, assignment);
   if (o.max_seconds > 0)
     settings.max_seconds = o.max_seconds;
-  garment::FitPolicy policy =
-      o.policy.empty() ? garment::standard_fit_policy() : garment::read_fit_policy(o.policy);
+  garment::FitPolicy policy = policy_of(o.policy);
 
   body::Body body = body::read_body(o.to);
   body.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
@@ -229,7 +240,7 @@ int run(cli::Tool& tool, Options o) {
     inputs.push_back(garment::input_entry(o.from));
   if (const std::string reason = garment::why_impossible(source, body); !reason.empty()) {
     const garment::FitReport fit = garment::impossible_fit(reason, policy);
-    write_fit(o, fit, tool.name(), false, inputs);
+    write_fit(o, fit, fit_findings(source, file_findings), tool.name(), false, inputs);
     return refuse(tool, o, fit);
   }
   const collision::BodyCollider skin = collision::make_collider(body.skin, body.skin_cache.get());
@@ -264,8 +275,8 @@ int run(cli::Tool& tool, Options o) {
          io::file_name(o.garment) + " on " + io::file_name(o.to) + " " + outcome.changed_ease});
   for (const Message& finding : findings)
     tool.reporter().warning(finding);
-  write_fit(o, fit, tool.name(), report.converged, inputs);
   findings.insert(findings.end(), file_findings.begin(), file_findings.end());
+  write_fit(o, fit, fit_findings(source, findings), tool.name(), report.converged, inputs);
   if (!o.report.empty())
     write_report(o, {outcome, rolls, put_on, dressed, sizes, inputs}, tool.name());
   if (outcome.was_draped() && !report.converged && report.misfit == garment::Misfit::NONE)

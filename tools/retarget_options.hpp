@@ -1,10 +1,12 @@
 #pragma once
 /// The options of retarget-garment: their texts, and which of them exclude or need one another.
 #include <sloper/cli/run_tool.hpp>
+#include <sloper/garment/fit/fit_policy.hpp>
 #include <sloper/garment/materials.hpp>
 #include <sloper/garment/retarget/retarget_job.hpp>
 #include <sloper/garment/scene/scene.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,25 @@ struct Options {
   double max_seconds = 0;
   bool no_drape = false, nearest_size = false;
 };
+
+/// Name of the built-in policy, which --policy takes beside files.
+inline constexpr const char* BUILT_IN_POLICY = "woven";
+
+/// A policy document, "-" or the built-in policy by its name. A file of that name comes first.
+inline cli::Check policy_file() {
+  cli::Check check = cli::input_file();
+  const auto fault = check.fault;
+  check.fault = [fault](const std::string& path) -> std::string {
+    return path == BUILT_IN_POLICY && !std::filesystem::exists(path) ? "" : fault(path);
+  };
+  return check;
+}
+
+/// The policy that --policy names; without it the built-in one.
+inline garment::FitPolicy policy_of(const std::string& path) {
+  const bool built_in = path.empty() || (path == BUILT_IN_POLICY && !std::filesystem::exists(path));
+  return built_in ? garment::standard_fit_policy() : garment::read_fit_policy(path);
+}
 
 /// The names of the preset fabrics.
 inline std::vector<std::string> fabric_names() {
@@ -48,9 +69,11 @@ inline void add_options(cli::Tool& tool, Options& o) {
               "keep-fabric: the same sewn garment; keep-fit: the pattern is regraded so that the "
               "ease stays (default: keep-fabric)")
       .check(cli::one_of({"keep-fabric", "keep-fit"}));
-  tool.option("--policy", o.policy,
-              "policy.json with limits per girth; exit 1 when the garment does not fit by it")
-      .check(cli::input_file());
+  tool.option(
+          "--policy", o.policy,
+          "policy.json with limits per girth, or woven: the built-in limits, as they stand; exit "
+          "1 when the garment does not fit by it")
+      .check(policy_file());
   tool.option("--fit", o.fit,
               "write fit.json: body, garment, ease, strain, gap, pressure and verdict per girth")
       .check(cli::output_file());

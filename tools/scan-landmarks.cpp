@@ -68,7 +68,7 @@ void tell_findings(cli::Tool& tool, const std::string& file, const body::Body& b
   Message widest{"scan.hole"_id, ""};
   for (const body::Finding& finding : body.scan.findings) {
     if (finding.severity != "warning")
-      continue; // what was not found is told at the end
+      continue; // landmarks that were not found are reported at the end
     const std::string text = file + ": " + finding.place + ": " + finding.what;
     const bool is_hole =
         finding.place[0] == '('; // its place is a point, and they come widest first
@@ -166,6 +166,7 @@ int run(cli::Tool& tool, const Options& o) {
   tool.reporter().info(took);
   tell_missing_faces(tool, o.scan, scan);
   body::MeasuredScan measured = measure(tool, o, scan, options);
+  tool.require_not_stopped(o.output); // spreads of fewer runs are not those that were asked for
   const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
   const std::string garmentcode =
       o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);

@@ -60,12 +60,14 @@ std::string man_page(const ToolDescription& tool) {
     out += ".PP\nReads " + roff(tool.reads) + ".\n";
   if (!tool.writes.empty())
     out += ".PP\nWrites " + roff(tool.writes) + ".\n";
-  out += ".PP\nOperands are inputs, outputs are named. A single JSON document may be read from or "
-         "written to a stream, named \\-.\n"
-         "Outputs are written to a temporary file and renamed, so that a failed run never touches "
-         "a file that is there.\n"
-         "Ctrl\\-C stops within a step and leaves the last good state; a second one ends the "
-         "program at once.\n";
+  out +=
+      ".PP\nOperands are inputs, outputs are named. A single JSON document may be read from or "
+      "written to a stream, named \\-.\n"
+      "Outputs are written to a temporary file and renamed, so that a failed run never touches "
+      "a file that is there.\n"
+      "Ctrl\\-C stops within a step; the last good state is written, and the program ends by the "
+      "signal (status 130 in a shell), so that a loop of a shell ends too. A second one ends it "
+      "at once. SIGTERM does the same (143).\n";
   std::string own, common;
   for (const OptionRow& row : tool.rows)
     (row.group == "Common options" ? common : own) += man_row(row);

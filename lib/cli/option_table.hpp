@@ -1,5 +1,5 @@
 #pragma once
-/// The one option table: what CLI11 was told, as rows from which help, man page, completion and
+/// The one option table: what CLI11 was given, as rows from which help, man page, completion and
 /// suggestions are made.
 #include <string>
 #include <vector>

@@ -41,6 +41,8 @@ struct Tool::Impl {
   std::string shell_asked, messages = "text";
   int threads = -1; ///< -1: not given
   Impl(const std::string& n, const std::string& s) : name(n), summary(s), app(s, n), reporter(n) {}
+  /// The exit status of everything but a signal. Catches all.
+  int run(int argc, char** argv, const std::function<int()>& body);
   ToolDescription description() const {
     return {name, summary, reads, writes, option_rows(app), examples};
   }
@@ -117,6 +119,11 @@ void Tool::tell(const std::string& line) {
 }
 const std::string& Tool::name() const {
   return m_impl->name;
+}
+void Tool::require_not_stopped(const std::string& output) const {
+  if (m_impl->reporter.stop_requested())
+    throw Error(ErrorKind::FAILED, "general.stopped"_id, output, "",
+                "stopped by the user; nothing is written");
 }
 void Tool::example(const std::string& command_line, const std::string& what) {
   m_impl->examples.push_back({command_line, what});
@@ -292,7 +299,7 @@ static std::vector<std::filesystem::path> files_of(CLI::Option* option,
   return files;
 }
 
-/// Nothing that is read is written over, and nothing is written twice. What goes on from a document
+/// Nothing that is read is written over, and nothing is written twice. What continues a document
 /// may take its place.
 static void spare_files(CLI::App& app) {
   constexpr std::pair<const char*, const char*> GOES_ON[] = {{"--from", "--output"},
@@ -421,7 +428,7 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words,
   return code;
 }
 
-/// What was printed must have gone out: a full disk is told, a reader that left is no error.
+/// All that was printed must have gone out: a full disk is an error, a reader that left is none.
 static void finish_output() {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good())
@@ -435,51 +442,55 @@ static void finish_output() {
 
 static const char* const REPORT_IT = "please report it with the command line";
 
-int Tool::run(int argc, char** argv, const std::function<int()>& body) {
-  Impl& m = *m_impl;
-  install_signal_handlers();
-  const std::string hint = "Try '" + m.name + " --help'.";
+int Tool::Impl::run(int argc, char** argv, const std::function<int()>& body) {
+  const std::string hint = "Try '" + name + " --help'.";
   try {
-    tighten(m.app);
+    tighten(app);
     const std::vector<std::string> words(argv + 1, argv + std::max(1, argc));
     if (words.empty()) {
-      std::fprintf(stderr, "Usage: %s\n%s.\n%s\n", m.description().usage().c_str(),
-                   m.summary.c_str(), hint.c_str());
+      std::fprintf(stderr, "Usage: %s\n%s.\n%s\n", description().usage().c_str(), summary.c_str(),
+                   hint.c_str());
       return static_cast<int>(ErrorKind::USAGE);
     }
-    const Request request = check_words(m.app, words, m.reporter);
+    const Request request = check_words(app, words, reporter);
     if (!request.option.empty()) {
-      io::write_file("-", answer_request(request, m.description()));
+      io::write_file("-", answer_request(request, description()));
       return 0;
     }
-    auto parsed = [&m] {
-      m.reporter.show_progress = !m.no_progress;
-      int threads = m.threads;
+    auto parsed = [this] {
+      reporter.show_progress = !no_progress;
+      int count = threads;
       if (threads < 0)
-        threads = std::min(available_processors(), MOST_DEFAULT_THREADS);
-      if (m.threads == 0)
-        threads = available_processors();
-      set_thread_count(threads);
+        count = std::min(available_processors(), MOST_DEFAULT_THREADS);
+      if (threads == 0)
+        count = available_processors();
+      set_thread_count(count);
     };
-    const int code = parse_and_run(m.app, words, m.examples, m.reporter, parsed, body);
-    m.reporter.clear_line();
+    const int code = parse_and_run(app, words, examples, reporter, parsed, body);
+    reporter.clear_line();
     finish_output();
     return code;
   } catch (const Error& error) {
-    m.reporter.error(error, error.kind() == ErrorKind::USAGE ? hint : "");
+    reporter.error(error, error.kind() == ErrorKind::USAGE ? hint : "");
     return error.exit_code();
   } catch (const std::bad_alloc&) {
-    m.reporter.error({ErrorKind::INTERNAL, "general.out-of-memory"_id, "", "", "out of memory"},
-                     "");
+    reporter.error({ErrorKind::INTERNAL, "general.out-of-memory"_id, "", "", "out of memory"}, "");
   } catch (const std::exception& error) {
-    m.reporter.error({ErrorKind::INTERNAL, "general.internal"_id, "", "", error.what(), REPORT_IT},
-                     "");
+    reporter.error({ErrorKind::INTERNAL, "general.internal"_id, "", "", error.what(), REPORT_IT},
+                   "");
   } catch (...) {
-    m.reporter.error({ErrorKind::INTERNAL, "general.internal"_id, "", "",
-                      "an exception of unknown type", REPORT_IT},
-                     "");
+    reporter.error({ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                    "an exception of unknown type", REPORT_IT},
+                   "");
   }
   return static_cast<int>(ErrorKind::INTERNAL);
+}
+
+int Tool::run(int argc, char** argv, const std::function<int()>& body) {
+  install_signal_handlers();
+  const int code = m_impl->run(argc, argv, body);
+  end_by_stop_signal();
+  return code;
 }
 
 } // namespace sloper::cli

@@ -11,11 +11,12 @@
 
 namespace sloper::cli {
 
-static volatile std::sig_atomic_t g_stop = 0; // a signal handler can reach nothing else
+/// The signal that asked to stop, or 0. A signal handler can reach nothing else.
+static volatile std::sig_atomic_t g_stop = 0;
 
 extern "C" {
-static void on_stop_signal(int) {
-  g_stop = 1;
+static void on_stop_signal(int number) {
+  g_stop = number;
 }
 }
 
@@ -33,6 +34,15 @@ void install_signal_handlers() {
       sigaction(signal_number, &action,
                 nullptr); // nohup and background jobs keep what they were given
   }
+}
+
+void end_by_stop_signal() {
+  const int number = g_stop;
+  if (number == 0)
+    return;
+  std::fflush(nullptr);
+  std::signal(number, SIG_DFL);
+  std::raise(number);
 }
 
 static bool set_in_environment(const char* name) {

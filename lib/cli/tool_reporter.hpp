@@ -39,4 +39,8 @@ private:
 /// effect.
 void install_signal_handlers();
 
+/// Ends the process by the signal that asked to stop, so that a shell sees the interruption and
+/// ends its loop; returns where none came. To be called once all results are written.
+void end_by_stop_signal();
+
 } // namespace sloper::cli

@@ -11,7 +11,7 @@ namespace {
 /// trusting.
 constexpr double FLAT = 1e-20;
 constexpr double WELL_SHAPED =
-    1e-8; ///< likewise, where the signs of the barycentric weights can be trusted
+    1e-8; ///< the same, where the signs of the barycentric weights can be trusted
 
 /// Makes `best` the closest point on edge k where that is nearer.
 void try_edge(const Vec3& p, const Vec3* const corner[3], int k, PointTriangle& best) {

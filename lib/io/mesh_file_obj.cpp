@@ -21,7 +21,8 @@ struct ObjCorner {
   Span normal_at;
 };
 
-/// Walks an OBJ line by line, and tells what it meets; a line that ends in a backslash goes on.
+/// Walks an OBJ line by line, and reports what it meets; a line that ends in a backslash is
+/// continued.
 class ObjWalk {
 public:
   ObjWalk(std::string_view text, const std::string& name) : m_text(text), m_name(name) {

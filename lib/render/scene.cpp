@@ -224,8 +224,8 @@ void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors) 
   }
 }
 
-// Edges are told apart by a hash that changes its sign with their direction: a sum of nothing left
-// over is chance once in 2^64.
+// Edges are distinguished by a hash that changes its sign with their direction: a sum of nothing
+// left over is chance once in 2^64.
 bool is_closed(const TriangleMesh& mesh) {
   const auto mixed = [](std::uint64_t x) { // splitmix64
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -251,8 +251,9 @@ Draft draft_shirt(const Measures& m) {
                  {"end_r", {}},  {"top", {}},       {"end_l", {}}};
   stand.placement = {"neck", 180, m.neck_back_height, Vec2(0, 0)};
   d.add(stand);
-  // Collar: a sector of a ring, so that its free edge is longer than the edge at the stand and
-  // turns over under its weight.
+  // Collar: a sector of a ring, so that its free edge is longer than the edge at the stand. Cloth
+  // does not turn over by its weight: the collar stands up to the chin unless a roll line is drawn
+  // (make-pattern --turned-collar).
   const double spread = 1.25, radius = 2 * half_top / spread, fall = 0.045, point = 0.015;
   const auto arc = [&](double r, double angle) {
     return Vec2(r * std::sin(angle), r * std::cos(angle) - radius);

@@ -85,7 +85,10 @@ int main(int argc, char** argv) {
   const cli::Option leg =
       tool.option("--leg-deg", given.leg_deg, "angle of each leg from vertical, 0 to 15");
   const cli::Option cell =
-      tool.option("--cell", given.cell_m, "edge length of the mesh, m").type_name("M");
+      tool.option("--cell", given.cell_m,
+                  "edge length of the mesh, m; it comes out up to a quarter finer where "
+                  "the surface closes only so")
+          .type_name("M");
   tool.option("--girth", o.girths,
               "set one girth, m: neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, "
               "ankle, upper_arm, forearm or wrist")

@@ -72,7 +72,10 @@ int main(int argc, char** argv) {
   std::vector<std::string> given;
   bool band_collar = false, turned_collar = false;
   double flare = 0;
-  tool.option("GARMENT", garment, "shirt, tshirt, skirt or trousers").required();
+  tool.option(
+          "GARMENT", garment,
+          "shirt (its collar stands unless --turned-collar is given), tshirt, skirt or trousers")
+      .required();
   tool.option("--body", body,
               "take the measures from a body document (or from a mannequin's truth)")
       .check(cli::input_file());
@@ -127,6 +130,11 @@ int main(int argc, char** argv) {
     for (samples::DraftPanel& panel : made.panels)
       if (turned_collar && panel.name == "collar")
         panel.roll_edge = "low";
+    if (garment == "shirt" && !band_collar && !turned_collar)
+      tool.reporter().warning({"sample.collar-stands"_id,
+                               "the collar has no roll line and stands up to the chin: say "
+                               "--turned-collar to turn it over, or --band-collar to leave it "
+                               "out"});
     if (body.empty() && preset.empty())
       tool.reporter().warning(
           {"sample.standard-measures"_id, "no --body is given: " + standard_list(given)});

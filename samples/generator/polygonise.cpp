@@ -9,8 +9,11 @@ namespace {
 
 constexpr int BLOCK =
     6; ///< cells along one side of a block that is skipped as a whole when far from the surface
-constexpr double FAR_OFF = 2.5; ///< a field value this many times the block's half diagonal is
-                                ///< taken as far from the surface
+constexpr double FINER_STEP = 0.03; ///< of the spacing: by how much a grid is made finer where none
+                                    ///< of that spacing closes the surface (toes, fingers)
+constexpr int FINER_STEPS = 8;      ///< at most
+constexpr double FAR_OFF = 2.5;     ///< a field value this many times the block's half diagonal is
+                                    ///< taken as far from the surface
 
 /// The field on the corners of a grid; corners far from the surface hold only the right sign.
 struct Grid {
@@ -319,11 +322,22 @@ bool is_closed_manifold(const TriangleMesh& mesh) {
   return true;
 }
 
-TriangleMesh polygonise(const Field& f, const Box3& box, double cell) {
+/// The surface on a grid of one spacing, which is moved by a fraction of a cell until it is closed;
+/// no triangles where it never is.
+static TriangleMesh closed_surface(const Field& f, const Box3& box, double cell) {
   for (int attempt = 0; attempt < 12; ++attempt) {
     const Vec3 shift = Vec3(0.5 + 0.137 * attempt, 0.5 + 0.271 * attempt, 0.5 + 0.419 * attempt);
     TriangleMesh mesh = surface_net(sample(f, box, cell, shift - shift.array().floor().matrix()));
-    if (mesh.triangles.empty() || !is_closed_manifold(mesh) || n_components(mesh) != 1)
+    if (!mesh.triangles.empty() && is_closed_manifold(mesh) && n_components(mesh) == 1)
+      return mesh;
+  }
+  return {};
+}
+
+TriangleMesh polygonise(const Field& f, const Box3& box, double cell) {
+  for (int step = 0; step <= FINER_STEPS; ++step) {
+    TriangleMesh mesh = closed_surface(f, box, cell * (1 - FINER_STEP * step));
+    if (mesh.triangles.empty())
       continue;
     relax(mesh, f, 2);
     even_valence(mesh);

@@ -69,6 +69,8 @@ def run(command, timeout_s, folder):
     code = process.returncode = os.waitstatus_to_exitcode(ended)
     if late.is_set() and code == -signal.SIGKILL:
         code, lines = "time out", []
+    elif code in (-signal.SIGINT, -signal.SIGTERM):
+        raise OSError(f"{os.path.basename(command[0])} was interrupted")  # the cell stays missing
     elif code < 0:
         code = f"signal {-code}"
     cost = {
@@ -334,7 +336,9 @@ def make_cell(plan, number):
             mesh = os.path.splitext(cell["garment_file"])[0] + ".obj"
             files[os.path.basename(mesh)] = mesh
         replay = ["retarget-garment", "--garment", worn, "--to", "body.json", *options]
-        if settings["policy"]:
+        if settings["policy"] == planning.BUILT_IN_POLICY:
+            replay += ["--policy", settings["policy"]]
+        elif settings["policy"]:
             files["policy.json"] = settings["policy"]
             replay += ["--policy", "policy.json"]
         write_bundle(

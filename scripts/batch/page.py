@@ -6,6 +6,7 @@ cells; the others stand in tables of ROWS rows below OUT/page, which it loads wh
 for.
 """
 import array
+import csv
 import heapq
 import html
 import json
@@ -20,6 +21,15 @@ WORST = 500
 PICTURES = 200
 ROWS = 1000
 MESSAGES = 1000  # at most so many are counted of each cause
+NAMED = 3  # failed cells in the closing lines
+
+# As lib/garment/fit/fit_places.cpp; the test of the page compares.
+SPOKEN = {
+    "waist_semantic": "waist",
+    "waist_girth_min": "narrowest waist",
+    "waist_width_min": "waist seen from the front",
+    "omphalion": "navel",
+}
 
 GOOD = ("dressed",)
 REFUSED = ("does not fit", "cannot go on")
@@ -127,6 +137,11 @@ def badness(status):
     )
 
 
+def spoken_girth(girth):
+    """ "navel" for "omphalion": as the fit pages call it."""
+    return SPOKEN.get(girth, girth.replace("_", " "))
+
+
 def heat_colour(percent):
     """Red where it is too tight, white at none, blue where it is wide."""
     if percent < 0:
@@ -144,7 +159,7 @@ def heat_map(garment, statuses):
     names = sorted((n for n in girths if not n.endswith("_r")), key=lambda n: (-girths[n], n))
     text = (
         f"<h3>{html.escape(garment)}</h3><div class=wide><table class=heat><thead><tr><th></th>"
-        + "".join(f"<th>{html.escape(n.replace('_', ' '))}</th>" for n in names)
+        + "".join(f"<th>{html.escape(spoken_girth(n))}</th>" for n in names)
         + "</tr></thead><tbody>"
     )
     for s in sorted(statuses, key=lambda s: s["scan"]):
@@ -175,9 +190,12 @@ class Totals:
         self.names = {}
         self.garments, self.scans = set(), set()
         self.messages = {}  # of failed cells: cause -> message -> count
+        self.failed = []  # the first NAMED: name, folder and cause
 
     def add(self, number, status):
         if css_class(status["cause"]) == "bad":
+            if len(self.failed) < NAMED:
+                self.failed.append((status["name"], f"cells/{status['place']}", status["cause"]))
             said = self.messages.setdefault(status["cause"], {})
             message = status.get("message", "")
             if message in said or len(said) < MESSAGES:
@@ -213,6 +231,7 @@ class Totals:
             "causes": count,
             "commonest": commonest,
             "message": min(said, key=lambda text: (-said[text], text), default=""),
+            "failed": self.failed,
         }
 
 
@@ -222,6 +241,19 @@ def commonest_text(figures):
     failed = figures["tried"] - figures["dressed"]
     text = f"most failures: {cause}, {figures['causes'][cause]} of {failed}"
     return text + (f"; {figures['message']}" if figures["message"] else "")
+
+
+def failed_texts(figures):
+    """A line for each of the first failed cells, and how many more there are."""
+    lines = [f"failed: {name}: {cause}; see {folder}" for name, folder, cause in figures["failed"]]
+    more = figures["tried"] - figures["dressed"] - len(lines)
+    return lines + ([f"failed: {counted(more, 'cell')} more; see cells.csv"] if more else [])
+
+
+def cell_line(status):
+    """A row of cells.csv: which folder holds which cell."""
+    words = [status[key] for key in ("name", "garment", "size", "scan", "cause")]
+    return words + [f"cells/{status['place']}", status.get("reason") or status.get("message", "")]
 
 
 def worn_text(figures):
@@ -296,7 +328,7 @@ def best_row_html(garment, scan, best):
         f"<tr><td>{html.escape(garment)}<td>{html.escape(scan)}<td>"
         + (html.escape(size) if size else "<span class=no>none fits</span>")
         + (f"<td class=n>{margin:.1f}" if margin is not None else "<td>")
-        + f"<td>{html.escape(at.replace('_', ' '))}<td>{html.escape(second)}"
+        + f"<td>{html.escape(spoken_girth(at))}<td>{html.escape(second)}"
         + (f"<td class=n>{100 * sure:.0f}" if sure is not None else "<td>")
         + "</tr>\n"
     )
@@ -459,7 +491,7 @@ class LargePage:
         for name, of in sorted(self.of.items()):
             for girth, values in sorted(of["ease"].items()):
                 text += (
-                    f"<tr><td>{html.escape(name)}<td>{html.escape(girth.replace('_', ' '))}<td "
+                    f"<tr><td>{html.escape(name)}<td>{html.escape(spoken_girth(girth))}<td "
                     f"class=n>{len(values)}"
                     + "".join(
                         f'<td class=n style="background:{heat_colour(float(v))}">{v}'
@@ -505,15 +537,19 @@ def quantiles(values, shape):
 
 
 def summarise(plan):
-    """Reads what each cell says, once; writes manifest.json, population.html, timings.csv and
-    timings.js. Returns (figures, count of missing cells)."""
+    """Reads what each cell says, once; writes manifest.json, population.html, cells.csv,
+    timings.csv and timings.js. Returns (figures, count of missing cells)."""
     out = plan.out
     small = plan.cell_count <= SMALL
     totals, page = Totals(plan), (SmallPage if small else LargePage)(plan)
     seconds = {}
-    csv = os.path.join(out, "timings.csv")
-    temporary = f"{csv}.{os.getpid()}.tmp"
-    with open(temporary, "w") as file:
+    timings = os.path.join(out, "timings.csv")
+    temporary = f"{timings}.{os.getpid()}.tmp"
+    index = os.path.join(out, "cells.csv")
+    index_temporary = f"{index}.{os.getpid()}.tmp"
+    with open(temporary, "w") as file, open(index_temporary, "w", newline="") as rows:
+        cells = csv.writer(rows, lineterminator="\n")
+        cells.writerow(("cell", "garment", "size", "scan", "outcome", "folder", "why"))
         file.write("cell,cause,cpu_s,wall_s,peak_mb,steps,host\n")
         for number in range(plan.cell_count):
             status = read_status(plan, number)
@@ -533,7 +569,9 @@ def summarise(plan):
                 pass
             totals.add(number, status)
             page.add(status)
-    os.replace(temporary, csv)
+            cells.writerow(cell_line(status))
+    os.replace(temporary, timings)
+    os.replace(index_temporary, index)
     planning.write_text(
         os.path.join(out, "timings.js"), "window.TIMINGS=" + json.dumps(seconds) + ";\n"
     )

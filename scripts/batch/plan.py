@@ -31,6 +31,14 @@ FLAT_CELLS = 4096  # a batch of more cells than this keeps them in 256 folders
 SLICES = 10_000  # at most so many targets in batch.mk
 
 
+BUILT_IN_POLICY = "woven"  # of retarget-garment
+
+
+def policy_hash(policy):
+    """Of the file; the name of the built-in policy; None without one."""
+    return policy if policy in (None, BUILT_IN_POLICY) else sha256(policy)
+
+
 class Mistake(Exception):
     """The user's: said without a trace, with an exit code."""
 
@@ -473,7 +481,7 @@ def make_plan(out, garments, scans, settings, tools, cache=None):
         "sharded": sharded,
         "cache": cache or os.path.join(out, "bodies"),
         "skins": os.path.join(cache or out, "skins"),
-        "policy_sha256": sha256(settings["policy"]) if settings["policy"] else None,
+        "policy_sha256": policy_hash(settings["policy"]),
         "from_sha256": sha256(*checked(settings["from"])) if settings.get("from") else None,
     }
     for part in range(0, len(described), SCANS_A_FILE):

@@ -52,6 +52,10 @@ public:
   /// A line on stderr that an option asked for, such as --explain: shown even with -q.
   void tell(const std::string& line);
   const std::string& name() const;
+  /// For work that gives no result where it was cut short.
+  /// @param output  the file that would be written
+  /// @throws Error FAILED where Ctrl-C or SIGTERM came
+  void require_not_stopped(const std::string& output) const;
 
   /// Parses the command line, runs `body`, catches everything once. `body` returns the
   /// exit status.
@@ -60,7 +64,8 @@ public:
   /// no arguments at all is a short usage on stderr and exit 2. Outputs whose folder is
   /// missing or not writable are refused before `body` runs (exit 5). Sets the thread
   /// count, ignores SIGPIPE, and turns the first SIGINT or SIGTERM into stop_requested();
-  /// the second one kills.
+  /// the second one ends the process at once. After the first one the process ends by that
+  /// signal once `body` has returned, whatever its status, so that a shell's loop ends too.
   /// @return the exit status, for main()
   int run(int argc, char** argv, const std::function<int()>& body);
 

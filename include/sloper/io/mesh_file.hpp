@@ -22,7 +22,7 @@ struct MeshFile {
   std::vector<Vec3> positions;
   std::vector<std::vector<int>> faces; ///< corners, three and more, into `positions`
   std::vector<Vec2> texture;           ///< #VT by 2; empty where the file has none that is known
-  std::vector<std::vector<int>> face_texture; ///< likewise into `texture`, -1 where a corner has
+  std::vector<std::vector<int>> face_texture; ///< the same into `texture`, -1 where a corner has
                                               ///< none; empty where there is no texture
   std::vector<std::string> companions; ///< files beside it that it names, such as its materials
   std::vector<std::string> findings; ///< of what cannot follow the positions, such as morph targets

@@ -248,7 +248,7 @@ void recover_feet(const TriangleMesh& scan, const Voxels& voxels, const Reading&
       }
   }
   // of a mesh, the pieces that reach up into the body are feet whatever their height; a floor that
-  // is joined to them is not told apart
+  // is joined to them cannot be distinguished
   std::vector<char> foot_piece;
   std::vector<int> piece;
   if (!scan.triangles.empty()) {

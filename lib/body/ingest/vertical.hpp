@@ -21,7 +21,7 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points,
 /// Turns `frame` to the body's own vertical, where that is sure. The body's and the file's may
 /// differ by a posture that is not the usual one: the file's stays where the two are more than a
 /// little apart and posture or soles agree with the file. `sorted` gets the new vertical with the
-/// body's extent along it. The angle between the two is told in the frame's findings. Cost: linear,
+/// body's extent along it. The angle between the two is a finding of the frame. Cost: linear,
 /// some 50 ms for 100,000 vertices.
 /// @param points of the body, scan units
 /// @param upright_file false where `frame` owes its vertical to upright_turn

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double CELL = 1.0 / 180;   ///< of stature: grid spacing of a rebuilt skin
 constexpr double SAMPLE = 1.0 / 260; ///< of stature: spacing of the samples
-constexpr double LEAST_HOLE = 0.006; ///< of stature: narrower holes are told as a number only
+constexpr double LEAST_HOLE = 0.006; ///< of stature: narrower holes are reported as a number only
 constexpr std::size_t MOST_HOLES = 12;
 constexpr double MAX_BORDER_SHARE = 1e-3; ///< of all edges: more open edges and the skin is rebuilt
 constexpr double SOLES = 0.025, CROWN = 0.9; ///< of stature: holes lower or higher are cuts

@@ -44,7 +44,7 @@ public:
   };
   FloatRows() = default;
   /// A pattern, all 0. Row i has blocks at `column`, from start[i] to start[i + 1] - 1, and
-  /// isotropic ones likewise (none if empty).
+  /// isotropic ones in the same order (none if empty).
   /// @param symmetric  every block will be
   FloatRows(const std::vector<int>& start, const std::vector<int>& column,
             const std::vector<int>& isotropic_start, const std::vector<int>& isotropic_column,

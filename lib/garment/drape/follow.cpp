@@ -22,7 +22,7 @@ constexpr int BUSY_ITERATIONS = 6; // at most, of those steps
 
 using Clock = std::chrono::steady_clock;
 
-/// A session that goes on for as long as edits come.
+/// A session that runs for as long as edits come.
 class LiveEdit {
 public:
   LiveEdit(Garment& garment, const body::Body* body, const DrapeSettings& settings,

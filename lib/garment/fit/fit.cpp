@@ -62,6 +62,7 @@ void take_limits(const FitPolicy& policy, const FitReport& report,
   limits.too_small_strain = policy.too_small_strain(limits, row.worn_strain, row.name,
                                                     report.garment_class, report.fabric);
   const auto designed_with = [&](double ease) {
+    row.cut_ease = ease;
     limits.too_large_ease =
         policy.too_large_ease(limits, ease, row.name, report.garment_class, report.fabric);
     limits.too_small_ease =
@@ -108,8 +109,9 @@ void judge(bool at_rest, FitRow& row) {
   } else if (share > limits.loose_ease) {
     row.verdict = FitVerdict::LOOSE;
     row.rule = {"loose_ease", limits.loose_ease};
-    row.reason =
-        "is loose at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) + " of ease";
+    row.reason = "is loose at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) +
+                 " of ease" +
+                 (row.cut_ease.value_or(0) > limits.loose_ease ? ", as it was cut" : "");
   }
 }
 
@@ -346,6 +348,8 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
     add(measure_place(cloth, place, report.convergence_m, why, history.source), place.name);
   }
   report.lines = fit_lines(garment, body);
+  report.lengths =
+      fit_lengths(report.lines.hems, garment.bind, history.source_bind, body, report.convergence_m);
   for (const FitHem& hem : report.lines.hems)
     add(measure_edge(cloth, body, hem, report.convergence_m, why, history.source),
         hem.name + " edge");

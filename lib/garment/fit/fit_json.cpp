@@ -8,11 +8,40 @@ namespace sloper::garment {
 
 namespace {
 
+constexpr std::size_t COLUMNS_OF_FIGURES = 19; ///< of the CSV, from height_m to margin_cm
+
 io::Json rule_json(const FitRule& rule) {
   io::Json j = {{"key", rule.key}};
   if (!rule.key.empty() && std::isfinite(rule.limit))
     j["limit"] = rule.limit;
   return j;
+}
+
+io::Json length_json(const FitLength& length) {
+  io::Json j;
+  j["place"] = length.place;
+  j["above_cm"] = {{"value", 100 * length.above_m}, {"uncertainty", 100 * length.uncertainty_m}};
+  if (length.source_above_m) {
+    j["source_above_cm"] = 100 * *length.source_above_m;
+    j["verdict"] = length.verdict;
+  }
+  j["text"] = length_text(length);
+  return j;
+}
+
+/// A text within quotes of RFC 4180.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text)
+    out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+/// A row without figures: a length, or a finding.
+std::string row_of_words(const std::string& name, const std::string& kind,
+                         const std::string& verdict, const std::string& reason) {
+  return name + "," + kind + "," + std::string(COLUMNS_OF_FIGURES, ',') + verdict + "," +
+         quoted(reason) + "\r\n";
 }
 
 } // namespace
@@ -32,6 +61,8 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
       document["strain_unknown"] = {{"bears", *report.bears}, {"girth", report.bears_at}};
   }
   document["state"] = report.state;
+  if (!report.mode.empty())
+    document["mode"] = report.mode;
   document["policy"] = report.policy;
   document["garment_class"] = report.garment_class;
   document["fabric"] = report.fabric;
@@ -98,9 +129,15 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
   document["coverage"] = io::Json::object();
   for (const auto& [name, share] : report.lines.coverage)
     document["coverage"][name] = {{"share", share}, {"length_m", report.lines.coverage_m.at(name)}};
+  if (report.was_draped()) {
+    document["lengths"] = io::Json::object();
+    for (const FitLength& length : report.lengths)
+      document["lengths"][length.name] = length_json(length);
+  }
   document["left_out"] = io::Json::object();
   for (const auto& [name, why] : report.left_out)
     document["left_out"][name] = why;
+  io::put_findings(document, report.findings);
   return document;
 }
 
@@ -128,8 +165,13 @@ std::string fit_csv(const FitReport& report) {
     csv += sizes;
     csv += draped;
     csv += verdict;
-    csv += "\"" + r.reason + "\"\r\n";
+    csv += quoted(r.reason) + "\r\n";
   }
+  if (report.was_draped())
+    for (const FitLength& length : report.lengths)
+      csv += row_of_words(length.name, "length", length.verdict, length_text(length));
+  for (const Message& finding : report.findings)
+    csv += row_of_words(finding.id, "finding", "", finding.text);
   return csv;
 }
 

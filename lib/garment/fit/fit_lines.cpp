@@ -1,3 +1,4 @@
+#include <sloper/base/text.hpp>
 #include <sloper/garment/fit/fit_lines.hpp>
 #include <sloper/geometry/disjoint_sets.hpp>
 
@@ -99,6 +100,159 @@ void cover(const body::Body& body, const std::vector<std::string>& names, const 
   lines.coverage[key] = covered / whole;
 }
 
+/// Difference of lengths that a tailor would see, m. The same as for the ease of a close girth
+/// (keep_ease.cpp).
+constexpr double SEEN = 0.02;
+
+/// A joint or level that an edge may end at, and its height above the joint that the frames share.
+struct LimbPlace {
+  std::string name; ///< "wrist", "knee", "hip"
+  double at_m;
+};
+
+/// A limb as the binding knows it: coordinates in metres along it.
+class Limb {
+public:
+  Limb(const Bind& bind, const std::string& kind, const std::string& side)
+      : m_bind(bind), m_zero(bind.frames.size()) {
+    if (kind == "sleeve")
+      add_arm(side);
+    else
+      add_trunk_and_legs(side);
+  }
+
+  const std::vector<LimbPlace>& places() const { return m_places; }
+
+  /// Mean over the particles of an edge, each of them once; nothing where none is on the limb.
+  std::optional<double> at(const std::vector<int>& particles) const {
+    double sum = 0;
+    int count = 0;
+    for (const int particle : particles) {
+      double along = 0, weight = 0;
+      for (const BindWeight& w : m_bind.particles[particle]) {
+        if (!m_zero[w.frame])
+          continue;
+        along += w.weight * (w.z * m_bind.lengths_m[w.frame] - *m_zero[w.frame]);
+        weight += w.weight;
+      }
+      if (weight <= 0)
+        continue;
+      sum += along / weight;
+      ++count;
+    }
+    if (count == 0)
+      return std::nullopt;
+    return sum / count;
+  }
+
+private:
+  int index(const std::string& frame) const {
+    const auto found = std::find(m_bind.frames.begin(), m_bind.frames.end(), frame);
+    return found == m_bind.frames.end() ? -1 : static_cast<int>(found - m_bind.frames.begin());
+  }
+
+  /// Forearms reach from the wrist to the elbow, upper arms from there to the shoulder.
+  void add_arm(const std::string& side) {
+    const int forearm = index("forearm_" + side), upper_arm = index("upper_arm_" + side);
+    if (forearm < 0)
+      return;
+    m_zero[forearm] = 0;
+    m_places.push_back({"wrist", 0});
+    m_places.push_back({"elbow", m_bind.lengths_m[forearm]});
+    if (upper_arm >= 0)
+      m_zero[upper_arm] = -m_bind.lengths_m[forearm];
+  }
+
+  /// All frames below the chest know the height of the crotch.
+  /// @param side  of a trouser leg; empty: both legs
+  void add_trunk_and_legs(const std::string& side) {
+    for (std::size_t k = 0; k < m_bind.frames.size(); ++k) {
+      const std::string& name = m_bind.frames[k];
+      const bool leg = name.rfind("leg_", 0) == 0;
+      const auto crotch = m_bind.marks[k].find("crotch");
+      if (crotch == m_bind.marks[k].end() || (leg && !side.empty() && name != "leg_" + side))
+        continue;
+      const double length = m_bind.lengths_m[k];
+      m_zero[k] = crotch->second * length;
+      add_place("crotch", 0);
+      if (leg)
+        add_place("ankle", -*m_zero[k]);
+      for (const char* mark : {"knee", "hip", "waist"})
+        if (const auto found = m_bind.marks[k].find(mark); found != m_bind.marks[k].end())
+          add_place(mark, found->second * length - *m_zero[k]);
+    }
+  }
+
+  /// The first frame that knows a place has it: a skirt takes the knee of the first leg.
+  void add_place(const std::string& name, double at_m) {
+    for (const LimbPlace& known : m_places)
+      if (known.name == name)
+        return;
+    m_places.push_back({name, at_m});
+  }
+
+  const Bind& m_bind;
+  std::vector<std::optional<double>> m_zero; // by frame, m: its coordinate of the shared joint
+  std::vector<LimbPlace> m_places;
+};
+
+std::vector<int> particles_of(const FitHem& hem) {
+  std::vector<int> particles;
+  for (const auto& edge : hem.edges)
+    particles.insert(particles.end(), edge.begin(), edge.end());
+  std::sort(particles.begin(), particles.end());
+  particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
+  return particles;
+}
+
+/// Spread of a landmark that a place of a limb comes from, m; 0 where it is not known.
+double spread_of(const body::Body& body, const std::string& place, const std::string& side) {
+  const std::string of_side = place + "_" + (side.empty() ? "l" : side);
+  for (const std::string& name : {of_side, place})
+    if (body.has_landmark(name))
+      return body.landmarks.at(name).spread_m;
+  return 0;
+}
+
+std::optional<double> height_of(const Limb& limb, const std::string& place) {
+  for (const LimbPlace& known : limb.places())
+    if (known.name == place)
+      return known.at_m;
+  return std::nullopt;
+}
+
+const LimbPlace* nearest_place(const Limb& limb, double at) {
+  const LimbPlace* nearest = nullptr;
+  for (const LimbPlace& place : limb.places())
+    if (!nearest || std::abs(place.at_m - at) < std::abs(nearest->at_m - at))
+      nearest = &place;
+  return nearest;
+}
+
+/// How far above a place the edge ended on the first body, where that is known.
+std::optional<double> source_above(const Bind* source, const std::string& kind,
+                                   const std::string& side, const std::vector<int>& particles,
+                                   const std::string& place) {
+  if (!source)
+    return std::nullopt;
+  const Limb limb(*source, kind, side);
+  const auto at = limb.at(particles), height = height_of(limb, place);
+  if (!at || !height)
+    return std::nullopt;
+  return *at - *height;
+}
+
+/// "sleeve" and "l" of "left sleeve"; "hem" and nothing of "hem"; no kind for other edges.
+std::pair<std::string, std::string> limb_of_edge(const std::string& edge) {
+  if (edge == "hem")
+    return {"hem", ""};
+  for (const std::string kind : {"sleeve", "leg"})
+    for (const std::string side : {"left", "right"})
+      if (edge == side + " " + kind)
+        return {kind, side.substr(0, 1)};
+  return {};
+}
+
 } // namespace
 
 FitLines fit_lines(const Garment& garment, const body::Body& body) {
@@ -143,6 +297,57 @@ FitLines fit_lines(const Garment& garment, const body::Body& body) {
     lines.hems.push_back(std::move(hem));
   }
   return lines;
+}
+
+std::vector<FitLength> fit_lengths(const std::vector<FitHem>& hems, const Bind& bind,
+                                   const Bind* source, const body::Body& body,
+                                   double convergence_m) {
+  if (source && source->particles.size() != bind.particles.size())
+    source = nullptr;
+  std::vector<FitLength> lengths;
+  for (const FitHem& hem : hems) {
+    const auto [kind, side] = limb_of_edge(hem.name);
+    if (kind.empty())
+      continue;
+    const std::vector<int> particles = particles_of(hem);
+    const Limb limb(bind, kind, side);
+    const auto at = limb.at(particles);
+    if (!at || limb.places().empty())
+      continue;
+    const LimbPlace& place = *nearest_place(limb, *at);
+    FitLength length;
+    length.name = side.empty() ? kind : std::string(kind).append("_").append(side);
+    length.place = place.name;
+    length.above_m = *at - place.at_m;
+    length.uncertainty_m =
+        std::hypot(hem.uncertainty_m, spread_of(body, place.name, side)) + convergence_m;
+    length.source_above_m = source_above(source, kind, side, particles, place.name);
+    if (length.source_above_m) {
+      const double shorter = length.above_m - *length.source_above_m;
+      const bool differs = std::abs(shorter) > std::max(SEEN, length.uncertainty_m);
+      if (!differs)
+        length.verdict = "same";
+      else
+        length.verdict = shorter > 0 ? "shorter" : "longer";
+    }
+    lengths.push_back(std::move(length));
+  }
+  return lengths;
+}
+
+std::string length_text(const FitLength& length) {
+  const auto where = [&](double above_m) {
+    return centimetres(std::abs(above_m)) + (above_m < 0 ? " below the " : " above the ") +
+           length.place;
+  };
+  std::string text = "ends " + where(length.above_m);
+  if (!length.source_above_m)
+    return text;
+  const double shorter = length.above_m - *length.source_above_m;
+  if (length.verdict == "same")
+    return text + ", as on the body that it comes from";
+  return text + ", " + centimetres(std::abs(shorter)) + (shorter > 0 ? " higher" : " lower") +
+         " than on the body that it comes from";
 }
 
 } // namespace sloper::garment

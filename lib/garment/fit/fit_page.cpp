@@ -1,5 +1,6 @@
 #include <garment/fit/fit_places.hpp>
 #include <sloper/base/text.hpp>
+#include <sloper/base/version.hpp>
 #include <sloper/garment/fit/fit.hpp>
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 namespace sloper::garment {
 
 namespace {
+
+constexpr int SORT_DIGITS = 6; ///< of the number that a column is sorted by
 
 const char* HEAD = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -62,7 +65,7 @@ std::string number(double value, int digits) {
 }
 
 std::string cell(double value, int digits, double uncertainty = -1) {
-  std::string text = "<td data-v=\"" + number(value, 6) + "\">" + number(value, digits);
+  std::string text = "<td data-v=\"" + number(value, SORT_DIGITS) + "\">" + number(value, digits);
   if (uncertainty >= 0)
     text += " <span class=\"pale\">&plusmn; " + number(uncertainty, digits) + "</span>";
   return text + "</td>";
@@ -90,30 +93,53 @@ std::string draped_cells(const FitRow& r) {
          cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa);
 }
 
+/// A girth as it is spoken of, with its name in the documents where that is another word.
+std::string girth_cell(const std::string& name) {
+  const std::string spoken = spoken_girth(name);
+  std::string text = "<td>" + escaped(spoken);
+  if (name == "omphalion")
+    text += " <span class=\"pale\">" + name + "</span>";
+  return text + "</td>";
+}
+
+/// Ease on the body that the garment comes from, and by how much it changed.
+std::string source_ease_cells(const FitRow& r) {
+  if (!r.source_ease_m)
+    return unmeasured_cell() + unmeasured_cell();
+  const double change = 100 * (r.ease_m - *r.source_ease_m);
+  return cell(100 * *r.source_ease_m, 1) + "<td data-v=\"" + number(change, SORT_DIGITS) + "\">" +
+         (change > 0 ? "+" : "") + number(change, 1) + "</td>";
+}
+
 std::string table(const std::vector<std::string>& heads, const std::string& rows) {
   std::string text = "<div class=\"wide\"><table><thead><tr>";
   for (const std::string& head : heads)
     text +=
-        (head == "along" || head == "verdict" ? "<th class=\"words\">" : "<th>") + head + "</th>";
+        (head == "along" || head == "verdict" || head == "of" ? "<th class=\"words\">" : "<th>") +
+        head + "</th>";
   return text + "</tr></thead><tbody>" + rows + "</tbody></table></div>\n";
 }
 
 /// Shares of the body girth that the bars show, and where they lie on the track.
 struct Scale {
-  double low = -0.06, high = 0.2;
+  static constexpr double LEAST_LOW = -0.06, LEAST_HIGH = 0.2; ///< always shown
+  static constexpr double LOWEST = -0.5, HIGHEST = 1.2;        ///< never shown beyond
+  static constexpr double STEPS[] = {0.05, 0.1, 0.2}, WIDEST_STEP = 0.25;
+  static constexpr int MOST_STEPS = 7; ///< marks on the axis
+  double low = LEAST_LOW, high = LEAST_HIGH;
   void show(double share) {
-    low = std::max(-0.5, std::min(low, share));
-    high = std::min(1.2, std::max(high, share));
+    low = std::max(LOWEST, std::min(low, share));
+    high = std::min(HIGHEST, std::max(high, share));
   }
   bool shows(double share) const { return share >= low && share <= high; }
   double at(double share) const {
     return 100 * (std::clamp(share, low, high) - low) / (high - low);
   } ///< per cent of the track
   double step() const {
-    for (const double s : {0.05, 0.1, 0.2})
-      if ((high - low) / s <= 7)
+    for (const double s : STEPS)
+      if ((high - low) / s <= MOST_STEPS)
         return s;
-    return 0.25;
+    return WIDEST_STEP;
   }
 };
 
@@ -125,14 +151,16 @@ std::string mark(const char* what, double left, double width = -1) {
 /// Bars of ease with their uncertainty and the policy's limits, all in per cent of the body girth,
 /// on one scale.
 std::string ease_bars(const std::vector<FitRow>& rows) {
+  constexpr double BESIDE_BAR = 0.02;    // share of the girth that stays free beside a bar
+  constexpr double LARGEST_LIMIT = 0.65; // a limit beyond it would make the bars too short
   Scale scale;
   for (const FitRow& r : rows) {
     const double share = r.ease_m / r.body_m, error = r.ease_uncertainty_m / r.body_m;
     scale.show(share - error);
-    scale.show(share + error + 0.02);
-    if (r.limits.loose_ease <= 0.65)
+    scale.show(share + error + BESIDE_BAR);
+    if (r.limits.loose_ease <= LARGEST_LIMIT)
       scale.show(r.limits.loose_ease);
-    if (r.limits.too_large_ease <= 0.65)
+    if (r.limits.too_large_ease <= LARGEST_LIMIT)
       scale.show(r.limits.too_large_ease + 0.01);
     scale.show(r.limits.too_small_ease - 0.01);
   }
@@ -182,6 +210,86 @@ std::string said_of(const std::string& state) {
   return state == "not at rest" ? "; the drape did not come to rest" : "";
 }
 
+/// Ease of each girth, as bars and as a table.
+std::string girth_sections(const FitReport& report) {
+  const std::string undraped = unmeasured_cell() + "<td class=\"words\"></td>" + unmeasured_cell() +
+                               unmeasured_cell() + unmeasured_cell();
+  const bool knows_source =
+      std::any_of(report.rows.begin(), report.rows.end(),
+                  [](const FitRow& r) { return r.source_ease_m.has_value(); });
+  std::string rows;
+  for (const FitRow& r : report.rows)
+    rows += "<tr>" + girth_cell(r.name) + cell(r.height_m * 100, 1) +
+            cell(r.body_m * 100, 1, r.body_uncertainty_m * 100) +
+            cell(r.rest_m * 100, 1, r.garment_uncertainty_m * 100) +
+            cell(r.ease_m * 100, 1, r.ease_uncertainty_m * 100) +
+            cell(100 * r.ease_m / r.body_m, 1) + (knows_source ? source_ease_cells(r) : "") +
+            "<td class=\"words " + css_class(r.verdict) + "\">" + verdict_name(r.verdict) +
+            "</td>" + (report.was_draped() ? draped_cells(r) : undraped) + "</tr>\n";
+  std::vector<std::string> heads = {"girth",      "height cm", "body cm",
+                                    "garment cm", "ease cm",   "ease %"};
+  if (knows_source)
+    heads.insert(heads.end(), {"ease before cm", "change cm"});
+  heads.insert(heads.end(),
+               {"verdict", "strain p99 %", "along", "gap p05 mm", "gap p50 mm", "pressure p95 Pa"});
+  return "<h2>Ease</h2>\n" + ease_bars(report.rows) + "<h2>Girths</h2>\n" + table(heads, rows) +
+         (knows_source ? "<p class=\"pale\">Ease before: of the same cloth on the body that the "
+                         "garment comes from. &plusmn; is an uncertainty, not a change.</p>\n"
+                       : "");
+}
+
+std::string region_section(const std::vector<FitRegion>& regions) {
+  std::string rows;
+  for (const FitRegion& r : regions)
+    rows += "<tr><td>" + r.name + "</td>" + cell(100 * r.strain_p50, 1) +
+            cell(100 * r.strain_p99, 1) + cell(100 * r.strain_max, 1) + "<td class=\"words\">" +
+            r.strain_direction + "</td></tr>\n";
+  return "<h2>Strain by region</h2>\n" +
+         table({"region", "p50 %", "p99 %", "largest %", "along"}, rows);
+}
+
+std::string hem_section(const FitReport& report) {
+  std::string rows;
+  for (const FitHem& h : report.lines.hems)
+    rows += "<tr><td>" + h.name + "</td>" +
+            cell(100 * h.height_m, 1, 100 * (h.uncertainty_m + report.convergence_m)) +
+            cell(100 * h.length_m, 1) + cell(100 * h.front_minus_back_m, 1) +
+            cell(100 * h.left_minus_right_m, 1) + "</tr>\n";
+  return "<h2>Hems</h2>\n" +
+         table({"edge", "height cm", "length cm", "front higher by cm", "left higher by cm"}, rows);
+}
+
+/// Where hems, sleeves and legs end.
+std::string length_section(const std::vector<FitLength>& lengths) {
+  const bool knows_source = std::any_of(lengths.begin(), lengths.end(), [](const FitLength& l) {
+    return l.source_above_m.has_value();
+  });
+  const auto source_cells = [](const FitLength& l) {
+    return (l.source_above_m ? cell(100 * *l.source_above_m, 1) : unmeasured_cell()) +
+           "<td class=\"words\">" + l.verdict + "</td>";
+  };
+  std::string rows;
+  for (const FitLength& l : lengths)
+    rows += "<tr><td>" + escaped(spoken_girth(l.name)) + "</td>" +
+            cell(100 * l.above_m, 1, 100 * l.uncertainty_m) + "<td class=\"words\">" + l.place +
+            "</td>" + (knows_source ? source_cells(l) : "") + "</tr>\n";
+  std::vector<std::string> heads = {"edge", "above cm", "of"};
+  if (knows_source)
+    heads.insert(heads.end(), {"before cm", "verdict"});
+  return "<h2>Length</h2>\n" + table(heads, rows) +
+         "<p class=\"pale\">How far above a joint or level of the body each edge ends, along the "
+         "limb; negative: below it." +
+         (knows_source ? " Before: on the body that the garment comes from.</p>\n" : "</p>\n");
+}
+
+std::string finding_section(const std::vector<Message>& findings) {
+  std::string text = "<h2>Findings</h2>\n<ul>\n";
+  for (const Message& finding : findings)
+    text += "<li>" + escaped(finding.text) + " <span class=\"pale\">" + escaped(finding.id) +
+            "</span></li>\n";
+  return text + "</ul>\n";
+}
+
 } // namespace
 
 std::string fit_page(const FitReport& report, const std::string& garment, const std::string& body) {
@@ -192,46 +300,20 @@ std::string fit_page(const FitReport& report, const std::string& garment, const 
           (report.reason.empty() ? "" : "<br>The garment " + escaped(report.reason) + ".") +
           "</div>\n<p>" + likelihood_of(report) + "</p>\n";
   page += "<p class=\"pale\">Policy: " + escaped(report.policy) +
+          (report.mode.empty() ? "" : "; mode: " + report.mode) +
           (report.garment_class.empty() ? "" : "; class: " + report.garment_class) +
           (report.fabric.empty() ? "" : "; fabric: " + escaped(report.fabric)) +
-          said_of(report.state) + "</p>\n";
-  if (!report.rows.empty()) {
-    const std::string undraped = unmeasured_cell() + "<td class=\"words\"></td>" +
-                                 unmeasured_cell() + unmeasured_cell() + unmeasured_cell();
-    std::string rows;
-    for (const FitRow& r : report.rows)
-      rows += "<tr><td>" + escaped(spoken_girth(r.name)) + "</td>" + cell(r.height_m * 100, 1) +
-              cell(r.body_m * 100, 1, r.body_uncertainty_m * 100) +
-              cell(r.rest_m * 100, 1, r.garment_uncertainty_m * 100) +
-              cell(r.ease_m * 100, 1, r.ease_uncertainty_m * 100) +
-              cell(100 * r.ease_m / r.body_m, 1) + "<td class=\"words " + css_class(r.verdict) +
-              "\">" + verdict_name(r.verdict) + "</td>" +
-              (report.was_draped() ? draped_cells(r) : undraped) + "</tr>\n";
-    page += "<h2>Ease</h2>\n" + ease_bars(report.rows) + "<h2>Girths</h2>\n" +
-            table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "verdict",
-                   "strain p99 %", "along", "gap p05 mm", "gap p50 mm", "pressure p95 Pa"},
-                  rows);
-  }
-  if (!report.regions.empty() && report.was_draped()) {
-    std::string rows;
-    for (const FitRegion& r : report.regions)
-      rows += "<tr><td>" + r.name + "</td>" + cell(100 * r.strain_p50, 1) +
-              cell(100 * r.strain_p99, 1) + cell(100 * r.strain_max, 1) + "<td class=\"words\">" +
-              r.strain_direction + "</td></tr>\n";
-    page += "<h2>Strain by region</h2>\n" +
-            table({"region", "p50 %", "p99 %", "largest %", "along"}, rows);
-  }
-  if (!report.lines.hems.empty()) {
-    std::string rows;
-    for (const FitHem& h : report.lines.hems)
-      rows += "<tr><td>" + h.name + "</td>" +
-              cell(100 * h.height_m, 1, 100 * (h.uncertainty_m + report.convergence_m)) +
-              cell(100 * h.length_m, 1) + cell(100 * h.front_minus_back_m, 1) +
-              cell(100 * h.left_minus_right_m, 1) + "</tr>\n";
-    page +=
-        "<h2>Hems</h2>\n" +
-        table({"edge", "height cm", "length cm", "front higher by cm", "left higher by cm"}, rows);
-  }
+          said_of(report.state) + "; Sloper " + VERSION + "</p>\n";
+  if (!report.findings.empty())
+    page += finding_section(report.findings);
+  if (!report.rows.empty())
+    page += girth_sections(report);
+  if (!report.lengths.empty() && report.was_draped())
+    page += length_section(report.lengths);
+  if (!report.regions.empty() && report.was_draped())
+    page += region_section(report.regions);
+  if (!report.lines.hems.empty())
+    page += hem_section(report);
   if (!report.lines.coverage.empty()) {
     std::string rows;
     for (const auto& [name, share] : report.lines.coverage)

@@ -21,7 +21,7 @@ struct FitPlace {
 
 /// Trunk levels are cut level, limbs square to the limb, legs level, the neck base through its four
 /// landmarks, the neck where a section beside that plane is as long as its girth, calf and ankle
-/// likewise.
+/// where a level section is.
 std::vector<FitPlace> fit_places(const body::Body& body);
 
 /// Taut girth of the skin of some parts in a plane, of the outline whose middle is nearest to

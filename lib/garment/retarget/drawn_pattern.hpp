@@ -13,7 +13,7 @@ struct DrawnPattern {
   const pattern::Pattern* pattern = nullptr; ///< PanelMesh::source of the garment
   std::vector<std::vector<int>> edge_of; ///< by panel, as PanelInfo::outline: the edge that starts
                                          ///< at a vertex or runs through it, ascending
-  std::vector<std::vector<Vec2>> outlines; ///< likewise, m: the vertices as they were drawn
+  std::vector<std::vector<Vec2>> outlines; ///< the same, m: the vertices as they were drawn
 };
 
 /// Nothing where the garment does not know its pattern, or its panels are meshed otherwise. A

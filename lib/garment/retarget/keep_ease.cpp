@@ -198,9 +198,13 @@ std::string changed_ease_text(const FitReport& fit) {
   if (changed.size() > MOST_CHANGED)
     changed.resize(MOST_CHANGED);
   std::string text;
-  for (const FitRow* row : changed)
-    text += (text.empty() ? "has " : "; ") + sloper::centimetres(row->ease_m) + " of ease at the " +
-            spoken_girth(row->name) + ", where it had " + sloper::centimetres(*row->source_ease_m);
+  for (const FitRow* row : changed) {
+    const bool more = row->ease_m > *row->source_ease_m;
+    text += (text.empty() ? "has " : "; ") + sloper::centimetres(change(row)) +
+            (more ? " more" : " less") + " ease at the " + spoken_girth(row->name) +
+            " than on the body that it comes from: " + sloper::centimetres(row->ease_m) +
+            ", there " + sloper::centimetres(*row->source_ease_m);
+  }
   return text;
 }
 

@@ -36,8 +36,8 @@ std::vector<Vec2> lengthening_for_ease(const Garment& placed,
                                        const std::vector<EaseAtGirth>& girths);
 
 /// Close girths whose ease is not that of the first body, to 2 cm and to twice the uncertainty, the
-/// most changed first and at most three: "has 22.6 cm of ease at the bust, where it had 8.2 cm";
-/// empty where there is none. Keep-fit tells it.
+/// most changed first and at most three: "has 14.4 cm more ease at the bust than on the body that
+/// it comes from: 22.6 cm, there 8.2 cm"; empty where there is none. Keep-fit warns of it.
 std::string changed_ease_text(const FitReport& fit);
 
 } // namespace sloper::garment

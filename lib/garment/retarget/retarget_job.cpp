@@ -89,6 +89,7 @@ private:
                         .unfit = misfit_text(misfit),
                         .made_for = made.body_girths_m,
                         .source = &m_job.source.position,
+                        .source_bind = m_job.source.converged ? &m_job.source.bind : nullptr,
                         .source_ease_m = m_out.retargeted.source_ease_m});
   }
 

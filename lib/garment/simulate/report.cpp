@@ -1,3 +1,4 @@
+#include <sloper/base/text.hpp>
 #include <sloper/garment/scene/scene.hpp>
 #include <sloper/garment/simulate/report.hpp>
 #include <sloper/io/files.hpp>
@@ -38,6 +39,31 @@ std::string unclean_frames_text(const io::Json& motion) {
          counts_text(most(0), most(1), most(2));
 }
 
+/// Whether a phase closes seams, or brings sewn cloth to the mesh that it is for.
+bool is_sewing(const std::string& phase) {
+  return phase == "sew" || phase == "sew coarse" || phase == "carry to the mesh";
+}
+
+/// A limit that ended before the garment was sewn, or that sewing alone used up, says so: the state
+/// reached then has no drape in it.
+std::string time_limit_text(const DrapeReport& report) {
+  double sewing_s = 0;
+  bool settled = false;
+  for (const auto& [name, wall_s] : report.phases) {
+    if (is_sewing(name))
+      sewing_s += wall_s;
+    settled = settled || name == "settle" || name == "move";
+  }
+  const double limit_s = report.settings.max_seconds;
+  const std::string limit = "time limit of " + decimals(limit_s, limit_s < 1 ? 3 : 1) + " s";
+  if (sewing_s > 0 && !settled)
+    return limit + ", before the garment was sewn";
+  if (limit_s > 0 && sewing_s >= limit_s)
+    return limit + ", which sewing alone used up (" + decimals(sewing_s, 1) +
+           " s): it is sewn, not draped";
+  return "time limit";
+}
+
 } // namespace
 
 std::string stop_text(const DrapeReport& report) {
@@ -52,7 +78,7 @@ std::string stop_text(const DrapeReport& report) {
   case StopReason::AT_REST_STRETCHED: return "at rest, but stretched by " + report.stop_detail;
   case StopReason::AT_REST_UNTURNED: return "at rest, but " + report.stop_detail;
   case StopReason::STEP_LIMIT: return "step limit";
-  case StopReason::TIME_LIMIT: return "time limit";
+  case StopReason::TIME_LIMIT: return time_limit_text(report);
   case StopReason::INTERRUPTED: return "stopped by the user";
   case StopReason::NOT_FINITE: return "diverged";
   case StopReason::STALLED:

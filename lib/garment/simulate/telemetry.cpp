@@ -23,7 +23,7 @@ void Telemetry::add_phase_time(const std::string& phase, double wall_s) {
   if (same == phases.end())
     phases.emplace_back(phase, wall_s);
   else
-    same->second += wall_s; // a phase that comes twice, or a run that goes on from a checkpoint
+    same->second += wall_s; // a phase that comes twice, or a run that continues a checkpoint
 }
 
 void Telemetry::activate(const char* effect, const char* why) {

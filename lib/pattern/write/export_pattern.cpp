@@ -11,6 +11,27 @@ namespace {
 
 constexpr double DXF_CHORD = 0.002; // m
 
+/// Group codes of DXF: what the value after each of them is.
+namespace dxf_code {
+constexpr int KIND = 0, WORDS = 1, NAME = 2, LAYER = 8, VARIABLE = 9, X = 10, END_X = 11, Y = 20,
+              END_Y = 21, TEXT_HEIGHT = 40, VERTICES_FOLLOW = 66, FLAGS = 70;
+} // namespace dxf_code
+
+/// Layers of AAMA and ASTM D6673.
+namespace dxf_layer {
+constexpr int CUT_LINE = 1, TURN_POINT = 2, CURVE_POINT = 3, NOTCH = 4, GRAIN = 7, INNER_LINE = 8,
+              CUT_OUT = 11, SEW_LINE = 14, ANNOTATION = 15;
+constexpr int SHAPED_NOTCHES[] = {80, 81, 82, 83};
+} // namespace dxf_layer
+
+constexpr double DXF_TEXT_HEIGHT = 5.0; // mm
+
+// The drawing, mm.
+constexpr double SVG_MARGIN = 20, SVG_HEAD = 40, SVG_GAP = 30;
+constexpr int SVG_EXTENT_POINTS = 32; // of an edge, from which the room that a panel takes is found
+constexpr std::size_t HUE_STEP = 137, HUES = 360; // degrees: near the golden angle, so that the
+                                                  // colours of following seams differ
+
 /// In metres to the last bit; else edits keep coordinates on a grid of a nanometre: ten of them are
 /// rounded away, so that 20 cm are written as 20.
 double rounded(double x, double unit) {
@@ -66,37 +87,37 @@ public:
     tag(code, std::string(text));
   }
   void point(const Vec2& p) {
-    tag(10, p.x() * 1000);
-    tag(20, p.y() * 1000);
+    tag(dxf_code::X, p.x() * 1000);
+    tag(dxf_code::Y, p.y() * 1000);
   }
-  void entity(const char* kind, int layer) {
-    tag(0, kind);
-    tag(8, std::to_string(layer));
+  void entity(const char* kind, int on) {
+    tag(dxf_code::KIND, kind);
+    tag(dxf_code::LAYER, std::to_string(on));
   }
-  void text(int layer, const Vec2& at, const std::string& words) {
-    entity("TEXT", layer);
+  void text(int on, const Vec2& at, const std::string& words) {
+    entity("TEXT", on);
     point(at);
-    tag(40, 5.0);
-    tag(1, words);
+    tag(dxf_code::TEXT_HEIGHT, DXF_TEXT_HEIGHT);
+    tag(dxf_code::WORDS, words);
   }
-  void mark(int layer, const Vec2& at) {
-    entity("POINT", layer);
+  void mark(int on, const Vec2& at) {
+    entity("POINT", on);
     point(at);
   }
-  void ring(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "1"); }
-  void chain(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "0"); }
+  void ring(int on, const std::vector<Vec2>& points) { polyline(on, points, "1"); }
+  void chain(int on, const std::vector<Vec2>& points) { polyline(on, points, "0"); }
   const std::string& str() const { return m_text; }
 
 private:
-  void polyline(int layer, const std::vector<Vec2>& points, const char* closed) {
-    entity("POLYLINE", layer);
-    tag(66, "1");
-    tag(70, closed);
+  void polyline(int on, const std::vector<Vec2>& points, const char* closed) {
+    entity("POLYLINE", on);
+    tag(dxf_code::VERTICES_FOLLOW, "1");
+    tag(dxf_code::FLAGS, closed);
     for (const Vec2& p : points) {
-      entity("VERTEX", layer);
+      entity("VERTEX", on);
       point(p);
     }
-    entity("SEQEND", layer);
+    entity("SEQEND", on);
   }
   std::string m_text;
 };
@@ -120,10 +141,10 @@ std::string about_seam(const Seam& seam) {
 
 /// Notches read from a DXF keep their layer, which tells their shape.
 int notch_layer(const Notch& notch) {
-  for (int layer : {80, 81, 82, 83})
-    if (notch.kind == "layer " + std::to_string(layer))
-      return layer;
-  return 4;
+  for (const int shape : dxf_layer::SHAPED_NOTCHES)
+    if (notch.kind == "layer " + std::to_string(shape))
+      return shape;
+  return dxf_layer::NOTCH;
 }
 
 std::string escaped(const std::string& text) {
@@ -253,23 +274,23 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
 std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_out) {
   DxfWriter out;
   std::vector<std::string> hinted; // panels
-  out.tag(0, "SECTION");
-  out.tag(2, "HEADER");
-  out.tag(9, "$ACADVER");
-  out.tag(1, "AC1009");
-  out.tag(0, "ENDSEC");
-  out.tag(0, "SECTION");
-  out.tag(2, "BLOCKS");
+  out.tag(dxf_code::KIND, "SECTION");
+  out.tag(dxf_code::NAME, "HEADER");
+  out.tag(dxf_code::VARIABLE, "$ACADVER");
+  out.tag(dxf_code::WORDS, "AC1009");
+  out.tag(dxf_code::KIND, "ENDSEC");
+  out.tag(dxf_code::KIND, "SECTION");
+  out.tag(dxf_code::NAME, "BLOCKS");
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
-    out.entity("BLOCK", 1);
-    out.tag(2, word(panel.name));
-    out.tag(70, "64");
+    out.entity("BLOCK", dxf_layer::CUT_LINE);
+    out.tag(dxf_code::NAME, word(panel.name));
+    out.tag(dxf_code::FLAGS, "64");
     out.point(Vec2(0, 0));
-    out.text(1, Vec2(0, 0), "Piece Name: " + panel.name);
-    out.text(1, Vec2(0, 0), "Quantity: 1");
+    out.text(dxf_layer::CUT_LINE, Vec2(0, 0), "Piece Name: " + panel.name);
+    out.text(dxf_layer::CUT_LINE, Vec2(0, 0), "Quantity: 1");
     if (!panel.material.empty())
-      out.text(1, Vec2(0, 0), "Material: " + panel.material);
+      out.text(dxf_layer::CUT_LINE, Vec2(0, 0), "Material: " + panel.material);
     int e = 0;
     for (std::size_t l = 0; l < panel.loops.size(); ++l) {
       std::vector<Vec2> ring, turns, curve;
@@ -306,14 +327,14 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
         ++e;
       }
       if (l == 0)
-        out.ring(1, ring);
-      out.ring(l == 0 ? 14 : 11, ring);
+        out.ring(dxf_layer::CUT_LINE, ring);
+      out.ring(l == 0 ? dxf_layer::SEW_LINE : dxf_layer::CUT_OUT, ring);
       for (const Vec2& q : turns)
-        out.mark(2, q);
+        out.mark(dxf_layer::TURN_POINT, q);
       for (const Vec2& q : curve)
-        out.mark(3, q);
+        out.mark(dxf_layer::CURVE_POINT, q);
       for (const auto& [at, said] : texts)
-        out.text(15, at, said);
+        out.text(dxf_layer::ANNOTATION, at, said);
     }
     for (const Notch& n : panel.notches) {
       const ArcLength arc(panel.edge(n.edge).path);
@@ -332,10 +353,10 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
       std::vector<Vec2> points;
       for (int k = 0; k <= n; ++k)
         points.push_back(arc.at(arc.length() * k / n));
-      out.chain(8, points);
+      out.chain(dxf_layer::INNER_LINE, points);
       const auto uses = [&](const Pleat& pleat) {
         return &panel.lines[pleat.fold] == &line;
-      }; // pleats are told below
+      }; // pleats are reported below
       if (line.kind == "fold" && std::none_of(panel.pleats.begin(), panel.pleats.end(), uses))
         left_out.push_back(panel.name + ": line " + line.name +
                            " is written without saying that it is a fold");
@@ -346,11 +367,11 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
     for (const Pleat& pleat : panel.pleats)
       left_out.push_back(panel.name + ": pleat " + pleat.name + " is written as two lines");
     const Vec2 from = panel.loops[0][0].path.front().p[0], to = from + 0.1 * panel.grain;
-    out.entity("LINE", 7);
+    out.entity("LINE", dxf_layer::GRAIN);
     out.point(from);
-    out.tag(11, to.x() * 1000);
-    out.tag(21, to.y() * 1000);
-    out.entity("ENDBLK", 1);
+    out.tag(dxf_code::END_X, to.x() * 1000);
+    out.tag(dxf_code::END_Y, to.y() * 1000);
+    out.entity("ENDBLK", dxf_layer::CUT_LINE);
   }
   if (!hinted.empty()) // one line: nearly all panels of a garment have a hint, and names and seams
                        // tell most of it again
@@ -358,37 +379,38 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
         hinted[0] +
         (hinted.size() > 1 ? " and " + std::to_string(hinted.size() - 1) + " more" : "") +
         ": where it is to be placed is not written");
-  out.tag(0, "ENDSEC");
-  out.tag(0, "SECTION");
-  out.tag(2, "ENTITIES");
+  out.tag(dxf_code::KIND, "ENDSEC");
+  out.tag(dxf_code::KIND, "SECTION");
+  out.tag(dxf_code::NAME, "ENTITIES");
   for (const Panel& panel : pattern.panels) {
-    out.entity("INSERT", 1);
-    out.tag(2, word(panel.name));
+    out.entity("INSERT", dxf_layer::CUT_LINE);
+    out.tag(dxf_code::NAME, word(panel.name));
     out.point(Vec2(0, 0));
   }
-  out.text(1, Vec2(0, 0), "Style Name: " + pattern.name);
-  out.text(1, Vec2(0, 0), "Units: METRIC");
-  out.text(1, Vec2(0, 0), "ANSI/AAMA VERSION: 1.0.0");
-  out.tag(0, "ENDSEC");
-  out.tag(0, "EOF");
+  out.text(dxf_layer::CUT_LINE, Vec2(0, 0), "Style Name: " + pattern.name);
+  out.text(dxf_layer::CUT_LINE, Vec2(0, 0), "Units: METRIC");
+  out.text(dxf_layer::CUT_LINE, Vec2(0, 0), "ANSI/AAMA VERSION: 1.0.0");
+  out.tag(dxf_code::KIND, "ENDSEC");
+  out.tag(dxf_code::KIND, "EOF");
   return out.str();
 }
 
 std::string pattern_svg(const Pattern& pattern) {
   std::string body;
-  double x = 20, height = 0;
+  double x = SVG_MARGIN, height = 0;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const PanelEdge& e : panel.loops[0]) {
       const ArcLength arc(e.path);
-      for (int k = 0; k <= 32; ++k) {
-        low = low.cwiseMin(arc.at(arc.length() * k / 32));
-        high = high.cwiseMax(arc.at(arc.length() * k / 32));
+      for (int k = 0; k <= SVG_EXTENT_POINTS; ++k) {
+        low = low.cwiseMin(arc.at(arc.length() * k / SVG_EXTENT_POINTS));
+        high = high.cwiseMax(arc.at(arc.length() * k / SVG_EXTENT_POINTS));
       }
     }
     const auto at = [&](const Vec2& q) {
-      return number(x + (q.x() - low.x()) * 1000) + " " + number(40 + (high.y() - q.y()) * 1000);
+      return number(x + (q.x() - low.x()) * 1000) + " " +
+             number(SVG_HEAD + (high.y() - q.y()) * 1000);
     };
     const auto path = [&](const Path& segments, bool move) {
       std::string d = move ? "M" + at(segments.front().p[0]) : "";
@@ -421,7 +443,7 @@ std::string pattern_svg(const Pattern& pattern) {
         for (const auto* side : {&pattern.seams[s].a, &pattern.seams[s].b})
           for (const Run& run : *side)
             if (run.panel == static_cast<int>(p) && run.edge == e) {
-              color = "hsl(" + std::to_string(s * 137 % 360) + ",75%,42%)";
+              color = "hsl(" + std::to_string(s * HUE_STEP % HUES) + ",75%,42%)";
               width = 3;
             }
       const ArcLength arc(panel.edge(e).path);
@@ -439,7 +461,7 @@ std::string pattern_svg(const Pattern& pattern) {
             "\" stroke=\"#333\" stroke-width=\"1\" marker-end=\"url(#tip)\"/>\n";
     body += "<text x=\"" + number(x) + "\" y=\"25\" font-size=\"16\">" + escaped(panel.name) +
             "</text>\n</g>\n";
-    x += (high.x() - low.x()) * 1000 + 30;
+    x += (high.x() - low.x()) * 1000 + SVG_GAP;
     height = std::max(height, (high.y() - low.y()) * 1000);
   }
   const std::string w = number(x), h = number(height + 60);

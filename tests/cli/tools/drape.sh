@@ -14,9 +14,9 @@ case_ctrl_c_leaves_the_last_good_state() {
     sleep 0.05
   done
   before=$SECONDS
-  kill -TERM "$pid" # a shell's background jobs ignore SIGINT; both signals take one way
+  kill -TERM "$pid" # a shell's background jobs ignore SIGINT; both signals are handled alike
   wait "$pid" || status=$?
-  [[ $status -eq 4 ]] || fail "exit $status, expected 4"
+  [[ $status -eq 143 ]] || fail "exit $status, expected 143: an end by the signal"
   [[ $((SECONDS - before)) -le 5 ]] || fail "took $((SECONDS - before)) s to stop"
   grep -q '"converged": false' out.json || fail "the garment is not marked"
   [[ -s out.obj ]] || fail "no mesh"
@@ -445,4 +445,9 @@ assert line["turned"] and line["turned_share"] > 0.9 and line["inwards_share"] <
 assert line["turn_deg"] > 90, line
 assert report["levels"]["meshes"] == 2, report["levels"]
 END
+}
+
+case_a_time_limit_below_the_time_of_sewing_says_so() {
+  run 4 "$program" --body a.body.json --panels panels.json --accuracy standard --max-seconds 0.001 -o out.json
+  says "not done: time limit of 0.001 s, before the garment was sewn"
 }

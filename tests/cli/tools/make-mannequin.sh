@@ -28,3 +28,9 @@ case_a_girth_that_does_not_come_out_is_told_and_the_figure_is_written() {
   run 0 "$program" --preset f-165-a --cell 0.018 --girth waist=0.82 --girth hip=1.02 -o out.obj
   [[ ! -s stderr ]] || fail "girths that came out are warned of"
 }
+
+case_a_cell_that_closes_no_surface_is_made_finer() {
+  # Toes of this figure closed on none of twelve grids of that spacing.
+  run 0 "$program" --preset f-165-a --cell 0.02 -o out.obj
+  [[ $(grep -c '^f ' out.obj) -gt 5000 ]] || fail "$(grep -c '^f ' out.obj) faces"
+}

@@ -71,3 +71,13 @@ case_a_collar_is_turned_over_where_there_is_one() {
   says "there is no collar to turn"
   run 2 "$program" shirt --body a.body.json --turned-collar --band-collar -o out.json
 }
+
+case_a_shirt_whose_collar_stands_is_warned_of() {
+  run 0 "$program" shirt --body a.body.json -o out.json
+  says "the collar has no roll line and stands up to the chin: say --turned-collar"
+  local collar
+  for collar in --turned-collar --band-collar; do
+    run 0 "$program" shirt "$collar" --body a.body.json -o out.json
+    [[ ! -s stderr ]] || fail "$collar: $(cat stderr)"
+  done
+}

@@ -159,3 +159,15 @@ EOF
 (line,) = json.load(open("r.json"))["roll_lines"]
 assert line["turned_share"] > 0.9 and line["inwards_share"] < 0.05, line' || fail "the collar stands"
 }
+
+case_a_unit_on_the_command_line_that_makes_a_giants_garment_is_refused() {
+  run 0 "$program" -q --write-pattern skirt.dxf skirt.pattern.json
+  run 0 "$program" --unit mm --edge-length 0.05 -o out.json skirt.dxf
+  rm out.json
+  local unit
+  for unit in cm in m; do
+    run 3 "$program" --unit "$unit" --edge-length 0.05 -o out.json skirt.dxf
+    says "skirt.dxf: back_l"
+    [[ ! -e out.json ]] || fail "$unit: meshed"
+  done
+}

@@ -85,7 +85,7 @@ case_ctrl_c_ends_a_turntable() {
   before=$SECONDS
   kill -TERM "$pid"
   wait "$pid" || status=$?
-  [[ $status -eq 4 && $((SECONDS - before)) -le 10 ]] || fail "exit $status after $((SECONDS - before)) s"
+  [[ $status -eq 143 && $((SECONDS - before)) -le 10 ]] || fail "exit $status after $((SECONDS - before)) s"
   says "stopped by the user"
   [[ ! -e out.png ]] || fail "half an animation was written"
 }

@@ -143,3 +143,32 @@ case_of_several_sizes_the_nearest_is_taken() {
   run 3 "$program" --no-drape --nearest-size --garment skirt.json --to b.body.json -o out.json
   says "its name has no size"
 }
+
+# What pattern-mesh found, how long it is, how it was put on, and the built-in policy by its name.
+case_the_fit_report_carries_findings_lengths_and_mode() {
+  python3 - << 'PYTHON'
+import json
+document = json.load(open("skirt.json"))
+document["findings"] = ['band "top" is 2 cm too short'] + document.get("findings", [])
+document["finding_ids"] = ["placement.too-tight"] + document.get("finding_ids", [])
+document["converged"] = True
+json.dump(document, open("skirt.json", "w"))
+PYTHON
+  run "1|4" "$program" --garment skirt.json --to b.body.json --accuracy draft --set max_steps=30 --policy woven \
+    --fit fit.json --fit-csv fit.csv --fit-page fit.html -o out.json
+  python3 - << 'PYTHON' || fail "$(head -c 600 fit.json)"
+import csv, json
+fit = json.load(open("fit.json"))
+assert fit["findings"][0] == 'band "top" is 2 cm too short', fit["findings"]
+assert fit["finding_ids"][0] == "placement.too-tight" and len(fit["findings"]) == len(fit["finding_ids"])
+assert fit["mode"] == "keep-fabric" and fit["policy"] == "woven", (fit["mode"], fit["policy"])
+hem = fit["lengths"]["hem"]
+assert hem["place"] in ("knee", "crotch", "ankle", "hip") and hem["verdict"] in ("same", "shorter", "longer"), hem
+rows = list(csv.DictReader(open("fit.csv", newline="")))
+assert any(r["kind"] == "finding" and r["girth"] == "placement.too-tight" for r in rows), rows
+assert any(r["kind"] == "length" and r["girth"] == "hem" and r["verdict"] == hem["verdict"] for r in rows), rows
+page = open("fit.html").read()
+assert "band &quot;top&quot; is 2 cm too short" in page and "mode: keep-fabric" in page and "<h2>Length</h2>" in page
+PYTHON
+  run 3 "$program" --garment skirt.json --to b.body.json --policy wovn -o out.json
+}

@@ -5,6 +5,7 @@
 #include <garment/fit/fit_places.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/text.hpp>
+#include <sloper/base/version.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/materials.hpp>
@@ -432,6 +433,49 @@ TEST(fit, the_page_and_the_csv_show_no_strain_of_cloth_that_was_not_draped) {
   EXPECT_EQ(page.find("waist semantic"), std::string::npos);
 }
 
+TEST(fit, document_csv_and_page_carry_findings_mode_version_and_lengths) {
+  const body::Body body = measured("f-165-a");
+  Garment shirt = skin_shirt(body);
+  bind_garment(shirt, body);
+  const collision::BodyCollider skin(body.skin);
+  FitReport report =
+      fit_garment(shirt, body, skin, standard_fit_policy(), {.source_bind = &shirt.bind});
+  report.mode = "keep-fit";
+  report.findings = {{"placement.too-tight"_id, "band \"cuff\" is 2 cm too short"}};
+  ASSERT_FALSE(report.lengths.empty());
+  for (const FitLength& length : report.lengths)
+    EXPECT_EQ(length.verdict, "same") << length_text(length);
+  const io::Json document = fit_json(report, "test");
+  EXPECT_EQ(document["mode"], "keep-fit");
+  EXPECT_EQ(document["findings"][0], report.findings[0].text);
+  EXPECT_EQ(document["finding_ids"][0], "placement.too-tight");
+  EXPECT_TRUE(document["lengths"].contains("hem"));
+  const std::string csv = fit_csv(report), page = fit_page(report, "a", "b");
+  EXPECT_NE(csv.find("\r\nplacement.too-tight,finding,"), std::string::npos);
+  EXPECT_NE(csv.find(",\"band \"\"cuff\"\" is 2 cm too short\"\r\n"), std::string::npos);
+  for (std::size_t at = 0; at < csv.size(); at = csv.find('\n', at) + 1) {
+    const std::string line = csv.substr(at, csv.find('\n', at) - at);
+    EXPECT_GE(std::count(line.begin(), line.end(), ','), 22) << line;
+  }
+  for (const char* text : {"mode: keep-fit", VERSION, "band &quot;cuff&quot; is 2 cm too short",
+                           "<h2>Length</h2>", "before cm", "omphalion"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  report.state = "placed";
+  EXPECT_FALSE(fit_json(report, "test").contains("lengths"));
+  EXPECT_EQ(fit_page(report, "a", "b").find("<h2>Length</h2>"), std::string::npos);
+}
+
+TEST(fit, ease_before_is_on_the_page_beside_its_change) {
+  const body::Body body = measured("f-165-a");
+  FitReport report = dressed(body, skin_shirt(body)).report;
+  EXPECT_EQ(fit_page(report, "a", "b").find("ease before cm"), std::string::npos);
+  FitRow& first = report.rows.front();
+  first.source_ease_m = first.ease_m - 0.031;
+  const std::string page = fit_page(report, "a", "b");
+  EXPECT_NE(page.find("ease before cm"), std::string::npos);
+  EXPECT_NE(page.find(">+3.1</td>"), std::string::npos);
+}
+
 TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_shirt(body));
@@ -440,7 +484,7 @@ TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
   EXPECT_EQ(document["girths"].size(), d.report.rows.size());
   const std::string csv = fit_csv(d.report), page = fit_page(d.report, "a <shirt>", "body & soul");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
-            d.report.rows.size() + 1);
+            d.report.rows.size() + d.report.lengths.size() + 1);
   const std::string head = csv.substr(0, csv.find('\r')),
                     second = csv.substr(csv.find('\n') + 1,
                                         csv.find('\r', csv.find('\n')) - csv.find('\n') - 1);

@@ -78,7 +78,9 @@ TEST(KeptEase, that_changed_is_told_where_it_is_more_than_its_uncertainty) {
   FitReport fit;
   fit.rows = {row("hip", 0.08, 0.07), row("bust", 0.15, 0.08), unsure,
               row("thigh_l", 0.5, std::nullopt)};
-  EXPECT_EQ(changed_ease_text(fit), "has 15.0 cm of ease at the bust, where it had 8.0 cm");
+  EXPECT_EQ(changed_ease_text(fit),
+            "has 7.0 cm more ease at the bust than on the body that it comes from: 15.0 cm, there "
+            "8.0 cm");
   fit.rows = {row("hip", 0.08, 0.07)};
   EXPECT_EQ(changed_ease_text(fit), "");
 }

@@ -65,3 +65,18 @@ TEST(StepLimit, a_report_says_how_many_extra_steps_there_are) {
   set_knob(stated, "max_steps=1500");
   EXPECT_EQ(settings_json(stated)["extra_steps"], 0);
 }
+
+TEST(TimeLimit, that_sewing_alone_used_up_is_told_from_one_that_ended_the_drape) {
+  DrapeReport report;
+  report.stop_reason = StopReason::TIME_LIMIT;
+  report.settings.max_seconds = 2;
+  report.phases = {{"prepare body", 0.1}, {"sew", 1.9}};
+  EXPECT_EQ(stop_text(report), "time limit of 2.0 s, before the garment was sewn");
+  report.phases = {{"sew coarse", 1.8}, {"carry to the mesh", 0.7}, {"settle", 0.1}};
+  EXPECT_EQ(stop_text(report),
+            "time limit of 2.0 s, which sewing alone used up (2.5 s): it is sewn, not draped");
+  report.phases = {{"sew coarse", 0.8}, {"settle", 1.3}};
+  EXPECT_EQ(stop_text(report), "time limit");
+  report.phases = {{"settle", 2.1}}; // a retargeting sews nothing
+  EXPECT_EQ(stop_text(report), "time limit");
+}

@@ -197,7 +197,7 @@ private:
 
   std::vector<Pair> m_pairs;
   std::vector<Nearing> m_nearing;   // of push_predictor_off_skin()
-  std::vector<Measured> m_measured; // likewise; few pairs ever need it
+  std::vector<Measured> m_measured; // by pair; few of them ever need it
   collision::BodyPairs m_found;
   std::vector<Vec3> m_searched_at,
       m_added_at; // #P by 3, m: where the last search and the last add() saw the cloth

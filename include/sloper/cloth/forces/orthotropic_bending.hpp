@@ -69,7 +69,7 @@ private:
   std::vector<Eigen::VectorXd> m_given; // by plate of m_plates: what the solver gets, by its hinges
   std::vector<double> m_constant;  // by hinge: what the solver gets of plates that do not soften
   std::vector<Vec3> m_moment;      // by hinge, of a step
-  std::vector<double> m_stiffness; // likewise: what the solver gets
+  std::vector<double> m_stiffness; // in the same order: what the solver gets
   // With rest angles.
   std::vector<Stencil> m_stencils;
   std::optional<std::vector<double>> m_rest_angle;

@@ -24,7 +24,7 @@ struct FabricTests {
   /// Of one drape, where there are too few repetitions to estimate it.
   double coefficient_error = 0.03;
   double shear_error = 0.3;   ///< relative error of the base's shear; 0 where it was measured
-  double stretch_error = 0.3; ///< likewise of its stretch
+  double stretch_error = 0.3; ///< the same, of its stretch
   DrapemeterSetup setup;      ///< of the drape tests
 };
 

@@ -41,6 +41,8 @@ struct FitHistory {
   /// Positions of the particles on the body that the garment comes from, #P by 3, m: a girth may be
   /// stretched as it was there (FitPolicy::too_small_strain).
   const std::vector<Vec3>* source = nullptr;
+  /// How it hung there, at rest: where its hems ended (FitReport::lengths).
+  const Bind* source_bind = nullptr;
   /// Ease on that body, m, by girth (Retargeted::source_ease_m), for FitRow::source_ease_m.
   std::map<std::string, double> source_ease_m = {};
 };

@@ -5,6 +5,7 @@
 #include <sloper/garment/garment.hpp>
 
 #include <array>
+#include <optional>
 
 namespace sloper::garment {
 
@@ -23,6 +24,22 @@ struct FitHem {
   std::vector<std::array<int, 2>> edges; ///< its particles, in no order
 };
 
+/// Where a hem, a sleeve or a leg ends on the limb that it hangs on.
+struct FitLength {
+  std::string name;  ///< "hem", "sleeve_l", "sleeve_r", "leg_l" or "leg_r"
+  std::string place; ///< nearest joint or level: wrist, elbow, ankle, knee, crotch, hip or waist
+  /// Along the limb, m: how far above that place it ends; negative: below it, or beyond the wrist.
+  double above_m = 0, uncertainty_m = 0;
+  /// The same on the body that the garment comes from; nothing where that is not known.
+  std::optional<double> source_above_m = {};
+  /// Against that body: "same", "shorter" or "longer" by more than 2 cm and the uncertainty; empty
+  /// where it is not known.
+  std::string verdict = {};
+};
+
+/// "ends 3.1 cm above the wrist, 2.9 cm higher than on the body that it comes from".
+std::string length_text(const FitLength& length);
+
 /// All free edges, and how far sleeves and legs reach.
 struct FitLines {
   std::vector<FitHem> hems; ///< one per free edge
@@ -35,5 +52,17 @@ struct FitLines {
 /// Measures the free edges.
 /// @param garment  bound to `body`
 FitLines fit_lines(const Garment& garment, const body::Body& body);
+
+/// Where hems, sleeves and legs end against the limb that they hang on, and against the body that
+/// the garment comes from. Both are read from the binding: coordinates of the edge's particles
+/// along the frames of arm, leg and trunk, in m from the joint that these frames share (wrist;
+/// crotch), less those of the nearest joint or level. Test: tests/garment/fit/test_fit_lengths.cpp
+/// @param hems    of fit_lines(); those of neck and top edge are left out
+/// @param bind    of the garment on `body`
+/// @param source  of the same particles on the body that the garment comes from; null: not known
+/// @param convergence_m  how far the garment may still move, m
+std::vector<FitLength> fit_lengths(const std::vector<FitHem>& hems, const Bind& bind,
+                                   const Bind* source, const body::Body& body,
+                                   double convergence_m);
 
 } // namespace sloper::garment

@@ -1,6 +1,7 @@
 #pragma once
 /// What is measured of a garment's fit: rows by girth, regions, free edges, the verdict.
 /// fit.hpp defines the measures; fit.json(5) describes the document.
+#include <sloper/base/message.hpp>
 #include <sloper/garment/fit/fit_lines.hpp>
 #include <sloper/garment/fit/fit_policy.hpp>
 
@@ -41,6 +42,9 @@ struct FitRow {
   /// Ease of the same cloth on the body that the garment comes from; nothing where it hung loose
   /// or is not known.
   std::optional<double> source_ease_m = {};
+  /// Ease that it was cut with, as a share of the girth of the body that it was cut for; nothing
+  /// where that body is not known.
+  std::optional<double> cut_ease = {};
   double bridged_m = 0;  ///< of the girth, where there is no trunk cloth: openings, under the arms
   bool open = false;     ///< something is bridged
   double strain_p99 = 0; ///< of the triangles within 2 cm of the cut, or along the edge
@@ -72,11 +76,16 @@ struct FitRegion {
 
 /// The whole report of one garment on one body.
 struct FitReport {
-  std::string garment_class;             ///< "top", "dress", "skirt", "trousers" or "whole"
-  std::string fabric;                    ///< name of the material of most of it
-  std::vector<FitRow> rows;              ///< one per girth that could be measured
-  std::vector<FitRegion> regions;        ///< one per region that has cloth
-  FitLines lines;                        ///< hems, coverage, balance
+  std::string garment_class;      ///< "top", "dress", "skirt", "trousers" or "whole"
+  std::string fabric;             ///< name of the material of most of it
+  std::vector<FitRow> rows;       ///< one per girth that could be measured
+  std::vector<FitRegion> regions; ///< one per region that has cloth
+  FitLines lines;                 ///< hems, coverage, balance
+  /// Where hems, sleeves and legs end; of cloth that was draped.
+  std::vector<FitLength> lengths;
+  /// What was found on the pattern and its panels (PanelMesh::findings), and in this run.
+  std::vector<Message> findings;
+  std::string mode;                      ///< of the retargeting, "keep-fabric"; empty: none
   double strain_p99 = 0, strain_max = 0; ///< over all cloth
   double slip_m = 0; ///< how far the garment as a whole sank from where it was placed
   /// Farther than this it falls off, m; what hangs from the waist does where its top edge is below

@@ -32,7 +32,8 @@ struct RetargetOutcome {
   DrapeReport report;    ///< of the last drape; PLACED_ONLY and NOT_DRAPED where there was none
   FitReport fit;         ///< of the garment as it ended
   /// With keep-fit, after a drape: which close girths have another ease than on the first body
-  /// ("has 22.6 cm of ease at the bust, where it had 8.2 cm"), or empty.
+  /// ("has 14.4 cm more ease at the bust than on the body that it comes from: 22.6 cm, there
+  /// 8.2 cm"), or empty.
   std::string changed_ease;
   std::string stretched_at; ///< stretched_place() of a garment that was draped, or empty
 

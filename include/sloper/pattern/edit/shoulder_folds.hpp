@@ -14,7 +14,7 @@ namespace sloper::pattern {
 /// - an inner line of kind "fold" whose name begins with "shoulder", straight through the panel, or
 /// - two seams, at both ends of the fold, that each sew a side of the panel to its mirror image
 ///   beyond the fold, or one and a second panel that is sewn to it on both sides of the fold.
-/// Each cut is told in Pattern::findings. Cost: seams times their samples.
+/// Each cut is reported in Pattern::findings. Cost: seams times their samples.
 /// @return how many panels were cut
 int cut_shoulder_folds(Pattern& pattern);
 

@@ -155,7 +155,7 @@ PhaseStatus MovePhase::step(SimContext& context) {
     return PhaseStatus::DONE;
   if (context.checkpoints->offer(m_state.parts, m_state.noted)) {
     make_motion(context);
-    m_rest.reset(); // a run that goes on from here knows nothing of it
+    m_rest.reset(); // a run that continues from here knows nothing of it
   }
   context.telemetry.reporter.progress("body motion", static_cast<double>(m_state.frame) /
                                                          static_cast<double>(m_moves->n_frames));
