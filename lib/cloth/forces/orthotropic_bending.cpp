@@ -39,7 +39,7 @@ OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
                                                    std::optional<std::vector<double>> rest_angle)
     : m_mesh(mesh), m_plates(make_bending_plates(mesh)), m_rest_angle(std::move(rest_angle)) {
   if (!m_rest_angle) {
-    sort_plates();
+    join_plates();
     return;
   }
   for (const BendingPlate& plate : m_plates)
@@ -47,25 +47,47 @@ OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
   sign_lengths();
 }
 
-/// Moves plates of three hinges that do not soften to m_threes.
-void OrthotropicBendingEffect::sort_plates() {
-  m_constant.assign(m_mesh.hinges.size(), 0);
+/// Plates that do not soften go into the weights of pairs; the others stay.
+void OrthotropicBendingEffect::join_plates() {
+  m_exact = m_given = PairWeights(m_mesh.n_particles);
+  std::vector<double> constant(m_mesh.hinges.size(), 0); // what the solver gets, by hinge
   std::vector<BendingPlate> others;
   for (BendingPlate& plate : m_plates) {
     Eigen::VectorXd given = hinges_alone(plate.stiffness);
-    const bool softens = plate.soft_share > 0;
-    for (std::size_t a = 0; !softens && a < plate.hinge.size(); ++a)
-      m_constant[plate.hinge[a]] += given[static_cast<Eigen::Index>(a)];
-    if (!softens && plate.hinge.size() == 3) {
-      const Eigen::MatrixXd& k = plate.stiffness;
-      m_threes.push_back({{plate.hinge[0], plate.hinge[1], plate.hinge[2]},
-                          {k(0, 0), k(0, 1), k(0, 2), k(1, 1), k(1, 2), k(2, 2)}});
+    if (plate.soft_share > 0) {
+      others.push_back(std::move(plate));
+      m_given_of.push_back(std::move(given));
       continue;
     }
-    others.push_back(std::move(plate));
-    m_given.push_back(std::move(given));
+    for (std::size_t a = 0; a < plate.hinge.size(); ++a)
+      constant[plate.hinge[a]] += given[static_cast<Eigen::Index>(a)];
+    const Stencil s = stencil_of(plate);
+    const Eigen::MatrixXd turning = coefficients(plate, s.particle);
+    m_exact.add(s.particle, turning.transpose() * plate.stiffness * turning);
   }
   m_plates = std::move(others);
+  for (std::size_t h = 0; h < constant.size(); ++h) {
+    const Hinge& hinge = m_mesh.hinges[h];
+    const Eigen::Map<const Eigen::Vector4d> c(hinge.coefficient.data());
+    if (constant[h] > 0)
+      m_given.add(hinge.particle, constant[h] * c * c.transpose());
+  }
+  m_exact.pack();
+  m_given.pack();
+}
+
+/// #hinges by #particles: the curvature vectors of a plate's hinges from its particles.
+Eigen::MatrixXd OrthotropicBendingEffect::coefficients(const BendingPlate& plate,
+                                                       const std::vector<int>& particle) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(plate.hinge), std::ssize(particle));
+  for (std::size_t e = 0; e < plate.hinge.size(); ++e) {
+    const Hinge& hinge = m_mesh.hinges[plate.hinge[e]];
+    for (int k = 0; k < 4; ++k) {
+      const auto at = std::find(particle.begin(), particle.end(), hinge.particle[k]);
+      out(static_cast<Eigen::Index>(e), at - particle.begin()) += hinge.coefficient[k];
+    }
+  }
+  return out;
 }
 
 /// The particles of a plate's hinges.
@@ -94,6 +116,9 @@ void OrthotropicBendingEffect::sign_lengths() {
 }
 
 void OrthotropicBendingEffect::declare(Couplings& couplings) const {
+  m_given.declare(couplings.isotropic);
+  if (!m_rest_angle && m_plates.empty())
+    return;
   auto& pairs = m_rest_angle ? couplings.full : couplings.isotropic;
   for (const Hinge& hinge : m_mesh.hinges)
     for (int a = 0; a < 4; ++a)
@@ -106,7 +131,9 @@ void OrthotropicBendingEffect::declare(Couplings& couplings) const {
 }
 
 void OrthotropicBendingEffect::bind(const BlockMatrix& matrix) {
-  m_hinge_slots = find_hinge_slots(m_mesh, matrix);
+  m_given.bind(matrix);
+  if (m_rest_angle || !m_plates.empty())
+    m_hinge_slots = find_hinge_slots(m_mesh, matrix);
   for (Stencil& s : m_stencils) {
     s.slot.clear();
     for (std::size_t a = 0; a < s.particle.size(); ++a)
@@ -130,14 +157,8 @@ std::vector<Vec3> OrthotropicBendingEffect::curvature_vectors(const std::vector<
 double OrthotropicBendingEffect::energy(const std::vector<Vec3>& x) const {
   if (m_rest_angle)
     return m_mesh.bend_scale * energy_of_angles(x);
-  const std::vector<Vec3> q = curvature_vectors(x);
-  double sum = 0;
-  for (const Three& plate : m_threes) {
-    const Vec3 &a = q[plate.hinge[0]], &b = q[plate.hinge[1]], &c = q[plate.hinge[2]];
-    const auto& k = plate.stiffness;
-    sum += 0.5 * (k[0] * a.squaredNorm() + k[3] * b.squaredNorm() + k[5] * c.squaredNorm()) +
-           k[1] * a.dot(b) + k[2] * a.dot(c) + k[4] * b.dot(c);
-  }
+  double sum = m_exact.energy(x);
+  const std::vector<Vec3> q = m_plates.empty() ? std::vector<Vec3>() : curvature_vectors(x);
   for (const BendingPlate& plate : m_plates) {
     double s = 0;
     for (std::size_t a = 0; a < plate.hinge.size(); ++a)
@@ -157,7 +178,7 @@ void OrthotropicBendingEffect::add(StepContext& c) {
     add_vectors(c, damping);
 }
 
-/// Moments dE/dq of a plate to those of its hinges. @param given  of m_given
+/// Moments dE/dq of a plate to those of its hinges. @param given  of m_given_of
 void OrthotropicBendingEffect::add_moments(const BendingPlate& plate, const Eigen::VectorXd& given,
                                            const std::vector<Vec3>& q) {
   const auto m = static_cast<Eigen::Index>(plate.hinge.size());
@@ -168,29 +189,24 @@ void OrthotropicBendingEffect::add_moments(const BendingPlate& plate, const Eige
   const double secant = plate.secant(moment.cwiseProduct(turned).sum());
   for (Eigen::Index a = 0; a < m; ++a) {
     m_moment[plate.hinge[a]] += secant * moment.col(a);
-    if (plate.soft_share > 0)
-      m_stiffness[plate.hinge[a]] += secant * given[a];
+    m_stiffness[plate.hinge[a]] += secant * given[a];
   }
 }
 
 void OrthotropicBendingEffect::add_vectors(StepContext& c, double damping) {
+  m_exact.add_force(c.x, m_mesh.bend_scale, c.force);
+  m_given.add_stiffness(m_mesh.bend_scale * (1 + damping), c.stiffness);
+  if (m_plates.empty())
+    return;
   const std::vector<Vec3> q = curvature_vectors(c.x);
   m_moment.assign(q.size(), Vec3::Zero());
-  m_stiffness = m_constant;
-  for (const Three& plate : m_threes) {
-    const auto [i, j, l] = plate.hinge;
-    const auto& k = plate.stiffness;
-    m_moment[i] += k[0] * q[i] + k[1] * q[j] + k[2] * q[l];
-    m_moment[j] += k[1] * q[i] + k[3] * q[j] + k[4] * q[l];
-    m_moment[l] += k[2] * q[i] + k[4] * q[j] + k[5] * q[l];
-  }
+  m_stiffness.assign(q.size(), 0);
   for (std::size_t p = 0; p < m_plates.size(); ++p)
-    add_moments(m_plates[p], m_given[p], q);
+    add_moments(m_plates[p], m_given_of[p], q);
   for (std::size_t h = 0; h < q.size(); ++h) {
-    const Hinge& hinge = m_mesh.hinges[h];
     const Vec3 moment = m_mesh.bend_scale * m_moment[h];
     const double k = m_mesh.bend_scale * m_stiffness[h] * (1 + damping);
-    add_hinge_vector(hinge, m_hinge_slots[h], moment, k, c.force, c.stiffness);
+    add_hinge_vector(m_mesh.hinges[h], m_hinge_slots[h], moment, k, c.force, c.stiffness);
   }
 }
 
