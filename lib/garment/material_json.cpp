@@ -72,8 +72,21 @@ Material measured_material(const std::string& path) {
   return m;
 }
 
+/// The other direction of a fabric is not that of the default preset, which nobody named.
+void require_both_directions(const io::Node& node) {
+  const bool warp = node.has("bend_warp_n_m"), weft = node.has("bend_weft_n_m");
+  const bool any = warp || weft || node.has("bend_bias_n_m");
+  if (!any || (warp && weft) || node.has("bend_n_m") || node.has("preset"))
+    return;
+  node.fail("material.direction-missing"_id,
+            std::string("has a rigidity by direction, but no ") +
+                (warp ? "bend_weft_n_m" : "bend_warp_n_m"),
+            "give bend_warp_n_m and bend_weft_n_m both, or a bend_n_m or preset for the rest");
+}
+
 /// What a fabric was measured to bend by replaces what a preset says of its directions.
 void settle_bending(const io::Node& node, Material& m) {
+  require_both_directions(node);
   const bool directions =
       node.has("bend_warp_n_m") || node.has("bend_weft_n_m") || node.has("bend_bias_n_m");
   if (node.has("bend_n_m") && !directions)

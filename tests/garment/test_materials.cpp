@@ -108,6 +108,8 @@ TEST(Materials, what_no_sheet_can_bend_like_is_refused) {
        R"({"format": "material", "version": 1, "bend_soft_share": 1.5})",
        R"({"format": "material", "version": 1, "layers": [{"material": "fusible", "bond": 2}]})",
        R"({"format": "material", "version": 1, "layers": [{"material": "fusible", "side": "under"}]})",
+       R"({"format": "material", "version": 1, "bend_warp_n_m": 1e-6})",
+       R"({"format": "material", "version": 1, "bend_bias_n_m": 8e-6})",
        R"({"format": "material", "version": 1, "bend_wrap_n_m": 1e-6})"}) {
     io::write_file(folder / "m.json", text);
     try {
@@ -127,6 +129,25 @@ TEST(Materials, a_single_rigidity_takes_the_place_of_a_preset_s_directions) {
   const Material m = material_from(folder / "m.json");
   EXPECT_FALSE(cloth::bends_by_direction(m));
   EXPECT_EQ(m.bend_n_m, 1e-5);
+}
+
+TEST(Materials, one_direction_alone_needs_the_other_a_mean_or_a_preset_that_was_named) {
+  const test::ScratchFolder folder;
+  for (const char* rest :
+       {R"("bend_weft_n_m": 4e-6)", R"("bend_n_m": 4e-6)", R"("preset": "denim")"}) {
+    io::write_file(folder / "m.json",
+                   std::string(R"({"format": "material", "version": 1, "bend_warp_n_m": 9e-6, )") +
+                       rest + "}");
+    EXPECT_EQ(material_from(folder / "m.json").bend_warp_n_m, 9e-6) << rest;
+  }
+  io::write_file(folder / "m.json",
+                 R"({"format": "material", "version": 1, "bend_warp_n_m": 9e-6})");
+  try {
+    material_from(folder / "m.json");
+    FAIL() << "the weft was taken from a preset that nobody named";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("no bend_weft_n_m"), std::string::npos) << e.what();
+  }
 }
 
 TEST(Kes, bending_lengths_give_rigidities_by_direction) {

@@ -104,6 +104,9 @@ Scene read_scene(const std::string& path) {
     for (std::size_t k = 0; k < root.at("interfacing").size(); ++k) {
       const io::Node item = root.at("interfacing").at(k);
       item.allow_only({"panels", "material", "bond", "side"});
+      if (item.at("panels").size() == 0)
+        item.at("panels").fail("scene.no-panels"_id, "names no panel",
+                               "name the panels that it goes on, or leave it out");
       Scene::Interfacing interfacing;
       for (std::size_t p = 0; p < item.at("panels").size(); ++p)
         interfacing.panels.push_back(item.at("panels").at(p).string());

@@ -79,6 +79,20 @@ TEST(Scene, what_it_says_of_weights_and_closures_reaches_the_garment) {
   EXPECT_EQ(g.scene.closures.size(), 1u);
 }
 
+TEST(Scene, interfacing_of_no_panel_is_refused) {
+  // It was taken, and the cloth was draped without it.
+  const test::ScratchFolder folder;
+  io::write_file(folder / "scene.json", R"({"format": "scene", "version": 1,
+          "interfacing": [{"panels": [], "material": "fusible"}]})");
+  try {
+    read_scene(folder / "scene.json");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::INPUT);
+    EXPECT_EQ(e.place(), "/interfacing/0/panels");
+  }
+}
+
 TEST(Scene, a_panel_that_the_garment_lacks_is_named_with_file_and_place) {
   // The message had neither, and for closures it came after sewing.
   const std::string line = R"("from": [0, 0], "to": [1, 0])",
