@@ -354,9 +354,16 @@ std::vector<SeamGuess> first_answers(const std::vector<SeamGuess>& guesses) {
   for (const SeamGuess* g : order) {
     std::vector<Run> runs = g->seam.a;
     runs.insert(runs.end(), g->seam.b.begin(), g->seam.b.end());
-    if (std::any_of(runs.begin(), runs.end(), is_sewn))
+    const std::size_t before = sewn.size();
+    for (const Run& run : runs) {
+      if (is_sewn(run))
+        break;
+      sewn.push_back(run); // no seam sews a stretch to itself either
+    }
+    if (sewn.size() < before + runs.size()) {
+      sewn.resize(before);
       continue;
-    sewn.insert(sewn.end(), runs.begin(), runs.end());
+    }
     out.push_back(*g);
     out.back().twin = -1; // indices of another list
     out.back().with.clear();
