@@ -1,5 +1,6 @@
 /// pattern-mesh: a sewing pattern to meshed, placed panels.
 #include <sloper/base/progress.hpp>
+#include <sloper/base/text.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/body/body_json.hpp>
 #include <sloper/cli/run_tool.hpp>
@@ -31,7 +32,7 @@ constexpr double LEAST_ANGLE =
 
 struct Options {
   std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules, undo, unit,
-      pieces, without;
+      pieces, without, answers = "none";
   double edge_length = 0.015, seam_length = 0, allowance = 0;
   bool check = false, unsewn = false;
 };
@@ -129,9 +130,55 @@ std::string questions(std::size_t n) {
   return std::to_string(n) + (n == 1 ? " question is" : " questions are");
 }
 
-/// Seams of a file that states none. True when all that could be sewn is certain; else the open
-/// questions go to standard output.
-bool guess_seams(cli::Tool& tool, pattern::Pattern& source, bool pieces_chosen) {
+/// Sews what is certain, and of the rest the first answer to each question. All of it goes to
+/// standard output as a sidecar.
+void take_first_answers(cli::Tool& tool, pattern::Pattern& source,
+                        const std::vector<pattern::SeamGuess>& guesses,
+                        const std::vector<pattern::PieceVersions>& versions,
+                        std::size_t questions) {
+  std::vector<pattern::SeamGuess> answers = pattern::first_answers(guesses);
+  std::string taken;
+  for (pattern::SeamGuess& g : answers) {
+    source.seams.push_back(g.seam);
+    const std::string seam = g.seam.name + " (" + decimals(100 * g.score, 0) + " %)";
+    if (!g.certain)
+      taken += (taken.empty() ? "" : ", ") + seam;
+    source.findings.push_back(
+        g.certain ? Message{"pattern.seam-guessed"_id, "seam " + g.seam.name + " is guessed"}
+                  : Message{"pattern.answer-taken"_id, "seam " + seam + " is a first answer"});
+    g.certain = true;
+  }
+  io::Json document = pattern::sewing_questions(source, answers, tool.name(), versions);
+  document["questions"] = io::Json::array();
+  for (const std::string& name : pattern::leave_out_unsewn(source)) {
+    // A name means the piece's mirrored copy too.
+    const bool with_original = document.contains("without") &&
+                               name == document["without"].back().get<std::string>() + "_mirror";
+    if (!with_original && source.find_panel(name + "_mirror") < 0)
+      document["without"].push_back(name);
+    source.findings.push_back(
+        {"dxf.piece-left-out"_id, name + " is left out: nothing is found that it is sewn to; name "
+                                         "its seam in --sewing to take it"});
+  }
+  std::cout << io::to_text(document);
+  std::string left_out;
+  for (const io::Json& name : document.value("without", io::Json::array()))
+    left_out += (left_out.empty() ? "" : ", ") + name.get<std::string>();
+  tool.reporter().warning(
+      {"pattern.answers-taken"_id,
+       "the file states no seams: the first answers to " + std::to_string(questions) +
+           (questions == 1 ? " question" : " questions") +
+           " are taken, each with its probability: " + (taken.empty() ? "none" : taken) +
+           (left_out.empty()
+                ? ""
+                : "; left out as other versions, or since nothing is found for them: " + left_out) +
+           "; look at the picture of the drape, or run without --answers to be asked"});
+}
+
+/// Seams of a file that states none. True when all that could be sewn is certain, or the first
+/// answers are to be taken; else the open questions go to standard output.
+bool guess_seams(cli::Tool& tool, pattern::Pattern& source, const Options& o) {
+  const bool pieces_chosen = !o.pieces.empty();
   std::vector<pattern::PieceVersions> versions;
   std::optional<std::vector<pattern::SeamGuess>> inferred;
   if (!pieces_chosen)
@@ -139,6 +186,10 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source, bool pieces_chosen) 
   const std::vector<pattern::SeamGuess> guesses =
       inferred ? std::move(*inferred) : pattern::infer_seams(source);
   const io::Json document = pattern::sewing_questions(source, guesses, tool.name(), versions);
+  if (o.answers == "first" && !document["questions"].empty() && !guesses.empty()) {
+    take_first_answers(tool, source, guesses, versions, document["questions"].size());
+    return true;
+  }
   for (const pattern::SeamGuess& g : guesses)
     if (g.certain) {
       source.seams.push_back(g.seam);
@@ -154,7 +205,9 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source, bool pieces_chosen) 
                                " open" +
                                (apart.empty() ? "" : ", nothing is found for " + apart.front()) +
                                "; answer the questions on standard output and give them "
-                               "as --sewing, or take the pieces --unsewn"});
+                               "as --sewing, take the first answers with --answers first, or "
+                               "take the pieces --unsewn; render-png --view pattern --show edges "
+                               "draws the edges that are asked for"});
   return false;
 }
 
@@ -222,8 +275,10 @@ int run(cli::Tool& tool, const Options& o) {
   const bool may_lack_seams = source.source_format == "dxf" || source.source_format == "clo";
   const bool guessed =
       source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn;
-  if (guessed && !guess_seams(tool, source, !o.pieces.empty()))
+  if (guessed && !guess_seams(tool, source, o))
     return 1;
+  const std::vector<std::string> apart =
+      guessed ? pattern::panels_apart(source) : std::vector<std::string>{};
   if (o.output.empty())
     throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",
                 "for example -o panels.json");
@@ -290,6 +345,11 @@ int run(cli::Tool& tool, const Options& o) {
         "the panels cannot start so: " + impossible.front(),
         "name the pieces for what they are, or say where they go with a hint (\"place\"); " +
             o.output + " shows where they lie");
+  if (!apart.empty())
+    throw Error(ErrorKind::FAILED, "pattern.half-sewn"_id, o.pattern, "",
+                "nothing is found that " + apart.front() + " is sewn to",
+                "leave it out with --without, or name its seam in --sewing; " + o.output +
+                    " is written as it is");
   // A drawing that states no seams: they were guessed or answered, and one was missed.
   if (half_sewn && (guessed || !o.sewing.empty()))
     throw Error(ErrorKind::FAILED, "pattern.half-sewn"_id, o.pattern, "", half_sewn->text,
@@ -339,6 +399,10 @@ int main(int argc, char** argv) {
   tool.option("--without", o.without, "leave these pieces out").type_name("LIST");
   tool.option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF")
       .check(cli::input_file());
+  tool.option("--answers", o.answers,
+              "first: take the first answer to each question about a DXF that states no seams")
+      .check(cli::one_of({"none", "first"}))
+      .show_default();
   tool.flag("--unsewn", o.unsewn, "mesh a DXF that states no seams without guessing any");
   tool.option("--write-pattern", o.write_pattern,
               "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with "

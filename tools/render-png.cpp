@@ -168,7 +168,7 @@ void draw_views(cli::Tool& tool, const Options& o, Drawing drawing) {
     tool.reporter().progress("draw", static_cast<double>(drawn + images.size()) /
                                          static_cast<double>(views.size()));
     if (!view) {
-      images.push_back(render::draw_pattern(scene, options));
+      images.push_back(render::draw_pattern(scene, options, show.edges));
     } else {
       if (!renderer)
         renderer.emplace(drawing.meshes, options).keep_depth(show.any());

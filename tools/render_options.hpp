@@ -25,9 +25,10 @@ struct Options {
 };
 
 inline void add_options(cli::Tool& tool, Options& o) {
-  tool.option("DOC", o.documents,
-              "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files "
-              "with --sheet and --compare")
+  tool.option(
+          "DOC", o.documents,
+          "body.json, shirt.json, panels.json, a pattern, the questions about it, OBJ, PLY or STL "
+          "meshes; PNG files with --sheet and --compare")
       .required()
       .check(cli::input_file());
   tool.option("--view", o.view,
@@ -46,7 +47,9 @@ inline void add_options(cli::Tool& tool, Options& o) {
   tool.option("--values", o.values,
               "write the numbers behind the map: a .csv, or a .ply with a value for each vertex")
       .check(cli::output_file());
-  tool.option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas")
+  tool.option("--show", o.show,
+              "landmarks, bones, frames, slices, seams, names, of a flat pattern edges; joined by "
+              "commas")
       .type_name("LIST");
   tool.option("--fabric", o.fabric,
               "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to "
@@ -108,6 +111,8 @@ inline void add_options(cli::Tool& tool, Options& o) {
                "where the cloth is stretched");
   tool.example("render-png --view pattern -o pattern.png panels.json",
                "the pattern, laid flat, seams in colours");
+  tool.example("render-png --view pattern --show edges -o edges.png shirt.pattern.json",
+               "the names of the edges that seams join");
   tool.example("render-png --view turntable:36 --as animation --size 400x500 -o turn.png body.json "
                "shirt.json",
                "a turntable that browsers play");
@@ -143,6 +148,9 @@ inline void check_options(const Options& o) {
         "ask for several views, or give --sheet");
   needs("--columns", o.columns_given, several, "lays out a sheet, and there is one picture",
         "ask for several views, or give --sheet");
+  if (o.show.find("edges") != std::string::npos && o.view.find("pattern") == std::string::npos)
+    throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", "--show edges",
+                "edges are named on the flat pattern", "give --view pattern too");
 }
 
 } // namespace sloper::render_options

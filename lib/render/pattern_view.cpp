@@ -1,5 +1,6 @@
 #include <sloper/base/error.hpp>
 #include <sloper/base/text.hpp>
+#include <sloper/pattern/pattern.hpp>
 #include <sloper/render/overlay.hpp>
 #include <sloper/render/pattern_view.hpp>
 #include <sloper/render/show.hpp>
@@ -14,14 +15,18 @@ namespace sloper::render {
 namespace {
 
 constexpr double GAP = 0.06; // m between panels: room for the names
+constexpr int ASKED_EDGE = 0xf2a900, ASKED_NAME = 0x8a1c00, EDGE_NAME = 0x404040;
+constexpr double ASKED_WIDTH = 5, CORNER_DOT = 2.5;    // fine lines
+constexpr double TEXT_HEIGHT = 0.9, HALF_DIGIT = 0.36; // of the font's size
 
 struct Sheet {
   DrawMesh mesh;
   struct Panel {
     const garment::Garment* garment;
     const pattern::PanelInfo* info;
-    int first;      ///< of its vertices in the mesh
-    Vec2 low, high; ///< m
+    int first;                 ///< of its vertices in the mesh
+    Vec2 low, high;            ///< m
+    Vec2 shift = Vec2::Zero(); ///< m, from coordinates across and along the warp to the sheet
   };
   std::vector<Panel> panels;
 };
@@ -65,6 +70,7 @@ Sheet lay_out(const Scene& scene, double width_over_height) {
     const Vec2 shift = corners[p] - panel.low;
     for (int v = panel.first; v < panel.first + panel.info->n_vertices; ++v)
       sheet.mesh.positions[v].head<2>() = sheet.mesh.uv[v] + shift;
+    panel.shift = shift;
     panel.low += shift;
     panel.high += shift;
   }
@@ -177,16 +183,84 @@ std::optional<Vec2> number_place(const SeamSide& side, int font) {
 }
 
 /// Seams in colours, and with numbers on both their sides: colours repeat after a dozen.
-void draw_seams(io::Image& image, const Sheet& sheet, const Camera& camera, double unit, int font) {
+void draw_seams(io::Image& image, const Sheet& sheet, const Camera& camera, double unit, int font,
+                bool numbers) {
   for_each_seam_side(sheet, camera, image,
                      [&](const SeamSide& side) { draw_seam(image, side, 3 * unit); });
+  if (!numbers)
+    return;
   for_each_seam_side(sheet, camera, image, [&](const SeamSide& side) {
     if (const std::optional<Vec2> place = number_place(side, font))
       draw_text_halo(image, std::to_string(side.seam + 1),
                      static_cast<int>(std::lround(place->x())),
-                     static_cast<int>(std::lround(place->y() + 0.36 * font)), font, Align::CENTER,
-                     seam_color(side.seam) >> 1 & 0x7f7f7f);
+                     static_cast<int>(std::lround(place->y() + HALF_DIGIT * font)), font,
+                     Align::CENTER, seam_color(side.seam) >> 1 & 0x7f7f7f);
   });
+}
+
+/// A panel edge as it lies in the picture, pixels.
+std::vector<Vec2> edge_in_picture(const Sheet::Panel& panel, const pattern::PanelEdge& edge,
+                                  const Camera& camera, const io::Image& image) {
+  constexpr int PIECES = 24;
+  const pattern::ArcLength arc(edge.path);
+  const Vec2 warp = panel.info->grain.normalized(), weft(warp.y(), -warp.x());
+  std::vector<Vec2> out;
+  for (int k = 0; k <= PIECES; ++k) {
+    const Vec2 own = arc.at(arc.length() * k / PIECES);
+    const Vec2 at = Vec2(own.dot(weft), own.dot(warp)) + panel.shift;
+    out.push_back(camera.pixel(Vec3(at.x(), at.y(), 0), image.width, image.height).head<2>());
+  }
+  return out;
+}
+
+/// "1?" for an edge that is asked for, "1.2" for its second answer; several with blanks between.
+std::string asked_marks(const Scene& scene, const std::string& panel, const std::string& edge) {
+  std::string marks;
+  for (const AskedEdge& a : scene.asked)
+    if (a.panel == panel && a.edge == edge)
+      marks += (marks.empty() ? "" : " ") + std::to_string(a.question) +
+               (a.answer > 0 ? "." + std::to_string(a.answer) : "?");
+  return marks;
+}
+
+/// Names of panel edges, inside them where they meet the middle; edges that are asked about are
+/// drawn thick, with their marks.
+void draw_edges(io::Image& image, const Scene& scene, const Sheet& sheet, const Camera& camera,
+                double unit, int font) {
+  for (const bool texts : {false, true}) // no line over a text
+    for (const Sheet::Panel& panel : sheet.panels) {
+      const auto& source = panel.garment->panels.source;
+      const int index = source ? source->find_panel(panel.info->name) : -1;
+      if (index < 0)
+        continue;
+      const pattern::Panel& own = source->panels[index];
+      for (int e = 0; e < own.n_edges(); ++e) {
+        const std::vector<Vec2> line = edge_in_picture(panel, own.edge(e), camera, image);
+        const std::string marks = asked_marks(scene, own.name, own.edge(e).name);
+        const Vec2 along = line[line.size() / 2 + 1] - line[line.size() / 2 - 1];
+        if (!texts) {
+          for (std::size_t k = 0; k + 1 < line.size() && !marks.empty(); ++k)
+            draw_line(image, line[k].x(), line[k].y(), line[k + 1].x(), line[k + 1].y(), 5 * unit,
+                      ASKED_EDGE);
+          draw_disc(image, line.front().x(), line.front().y(), CORNER_DOT * unit, EDGE_NAME);
+          continue;
+        }
+        if (marks.empty() && (line.back() - line.front()).norm() < font)
+          continue; // names of small edges would cover each other
+        // The outline is walked with the cloth at its left; y runs down in the picture.
+        const Vec2 inwards = Vec2(along.y(), -along.x()).normalized();
+        const std::string name = own.edge(e).name;
+        const std::string text = marks.empty() ? name : marks + "  " + name;
+        const double aside = text_width(text, font) * std::abs(inwards.x()) / 2 +
+                             TEXT_HEIGHT * font * std::abs(inwards.y()) + ASKED_WIDTH * unit;
+        // What is asked about is written outside, where no other name is.
+        const double side = marks.empty() ? 1 : -1;
+        const Vec2 at = line[line.size() / 2] + side * aside * inwards;
+        draw_text_halo(image, text, static_cast<int>(std::lround(at.x())),
+                       static_cast<int>(std::lround(at.y() + HALF_DIGIT * font)), font,
+                       Align::CENTER, marks.empty() ? EDGE_NAME : ASKED_NAME);
+      }
+    }
 }
 
 /// Name, size and grain of a panel, on it or, where it has no room, above it. @param mapped colours
@@ -270,7 +344,7 @@ std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap,
   return best;
 }
 
-io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
+io::Image draw_pattern(const Scene& scene, const DrawOptions& options, bool name_edges) {
   if (scene.garments.empty())
     throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", "--view pattern",
                 "needs a garment, panels or a pattern",
@@ -298,7 +372,9 @@ io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   Renderer renderer(meshes, flat);
   io::Image image = renderer.draw(camera);
   const double pixels_per_m = 0.5 * options.height / camera.half_height;
-  draw_seams(image, sheet, camera, unit, font - 2);
+  draw_seams(image, sheet, camera, unit, font - 2, !name_edges);
+  if (name_edges)
+    draw_edges(image, scene, sheet, camera, unit, font - 1);
   for (const Sheet::Panel& panel : sheet.panels)
     draw_name(image, sheet, panel, camera, unit, font, mapped);
   const double bar = 0.1 * pixels_per_m, y = options.height - 12 * unit;

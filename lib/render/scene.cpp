@@ -81,7 +81,50 @@ void add_findings(Scene& scene, const std::vector<Message>& findings) {
   scene.findings.insert(scene.findings.end(), findings.begin(), findings.end());
 }
 
-void read_one(Scene& scene, const std::string& path) {
+/// The edges that questions are about: of each the one asked for, and those that its answers sew.
+std::vector<AskedEdge> asked_edges(const io::Json& document, const std::string& path) {
+  std::vector<AskedEdge> out;
+  const io::Node root(document, path);
+  if (!root.has("questions"))
+    return out;
+  const io::Node questions = root.at("questions");
+  int number = 0;
+  for (std::size_t q = 0; q < questions.size(); ++q) {
+    const io::Node question = questions.at(q), candidates = question.at("candidates");
+    ++number;
+    if (!question.has("run"))
+      continue; // which of several pieces
+    const std::size_t first = out.size();
+    const auto add = [&](int answer, const io::Node& run) {
+      const AskedEdge edge{number, answer, run.at("panel").string(), run.at("run").string()};
+      const bool known = std::any_of(
+          out.begin() + static_cast<long>(first), out.end(), [&](const AskedEdge& other) {
+            return other.panel == edge.panel && other.edge == edge.edge && other.answer == 0;
+          });
+      if (!known)
+        out.push_back(edge);
+    };
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+      for (const char* side : {"a", "b"}) {
+        const io::Node runs = candidates.at(c).at(side);
+        const bool asked = c == 0 && std::string(side) == "a";
+        for (std::size_t r = 0; r < runs.size(); ++r)
+          add(asked ? 0 : static_cast<int>(c) + 1, runs.at(r));
+      }
+  }
+  return out;
+}
+
+/// Whether a document is a sidecar of seams. Standard input is read once, so it is none.
+bool is_sidecar(const std::string& path) {
+  if (path == "-" || io::ending_of(path) != ".json" ||
+      io::read_file(path).find("\"sewing-seams\"") == std::string::npos)
+    return false;
+  return format_of(io::read_json(path), path) == "sewing-seams";
+}
+
+/// @param sidecar  with the seams of patterns, or empty
+void read_one(Scene& scene, const std::string& path, const std::string& sidecar) {
   const std::string ending = io::ending_of(path);
   if (ending == ".obj") {
     scene.meshes.push_back(obj_mesh(io::read_obj(path)));
@@ -126,7 +169,7 @@ void read_one(Scene& scene, const std::string& path) {
     scene.garments.push_back(std::move(g));
   } else if (format == "pattern") {
     garment::Garment g;
-    g.panels = pattern::mesh_pattern(pattern::read_pattern(path, ""), PATTERN_EDGE, path);
+    g.panels = pattern::mesh_pattern(pattern::read_pattern(path, sidecar), PATTERN_EDGE, path);
     g.position = g.panels.placed;
     for (std::size_t v = 0; v < g.position.size(); ++v)
       g.particle_of.push_back(static_cast<int>(v));
@@ -253,10 +296,21 @@ Scene read_scene(const std::vector<std::string>& paths) {
   std::string body;
   std::vector<std::string> draped; // garments' files
   std::vector<std::size_t> which;  // of the scene's garments
+  std::string sidecar;
+  for (const std::string& path : paths)
+    if (is_sidecar(path)) {
+      if (!sidecar.empty())
+        throw Error(ErrorKind::USAGE, "option.wrong-count"_id, "", path,
+                    "is a second sidecar of seams", "draw one pattern with its sidecar at a time");
+      sidecar = path;
+      scene.asked = asked_edges(io::read_json(path), path);
+    }
   for (const std::string& path : paths) {
+    if (path == sidecar)
+      continue;
     const std::size_t before = scene.meshes.size(), garments = scene.garments.size();
     const int body_before = scene.body_mesh;
-    read_one(scene, path);
+    read_one(scene, path, sidecar);
     if (scene.body_mesh != body_before)
       body = path;
     if (scene.garments.size() > garments && !scene.garments.back().body_sha256.empty()) {

@@ -198,7 +198,8 @@ Show parse_show(const std::string& list) {
   Show show;
   const std::pair<const char*, bool Show::*> words[] = {
       {"landmarks", &Show::landmarks}, {"bones", &Show::bones}, {"frames", &Show::frames},
-      {"slices", &Show::slices},       {"seams", &Show::seams}, {"names", &Show::names}};
+      {"slices", &Show::slices},       {"seams", &Show::seams}, {"names", &Show::names},
+      {"edges", &Show::edges}};
   for (const std::string& word : split(list)) {
     const auto found = std::find_if(std::begin(words), std::end(words),
                                     [&](const auto& w) { return word == w.first; });
@@ -208,7 +209,7 @@ Show parse_show(const std::string& list) {
         names.emplace_back(w.first);
       throw unknown_word(
           "--show", word, names,
-          "known are landmarks, bones, frames, slices, seams and names, joined by commas");
+          "known are landmarks, bones, frames, slices, seams, names and edges, joined by commas");
     }
     show.*found->second = true;
   }

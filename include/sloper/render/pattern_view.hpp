@@ -10,8 +10,11 @@ namespace sloper::render {
 /// @param options size, background, map colours and context; the rest is not used
 /// @param scene   with garments (or panels); map values of their meshes are shown when `options`
 /// has map colours
+/// @param name_edges  writes the names of panel edges inside them, small ones aside; outside them
+/// those of edges that are asked about, with marks: "1?" asked for in the first question, "1.1" and
+/// "1.2" its answers
 /// @throws Error USAGE when there is no panel
-io::Image draw_pattern(const Scene& scene, const DrawOptions& options);
+io::Image draw_pattern(const Scene& scene, const DrawOptions& options, bool name_edges = false);
 
 /// Lower left corner of each panel, m: rows of panels in order of height, filling about
 /// `width_over_height`.

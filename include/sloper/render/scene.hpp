@@ -44,6 +44,13 @@ struct DrawMesh {
 /// mesh is oriented outwards. O(#F).
 bool is_closed(const TriangleMesh& mesh);
 
+/// An edge of a pattern that a question of pattern-mesh is about.
+struct AskedEdge {
+  int question = 0;        ///< from 1 on, in the order of the document
+  int answer = 0;          ///< 0: the edge that is asked for; else the answer that sews it to that
+  std::string panel, edge; ///< names
+};
+
 /// Documents as they are drawn: the data and its meshes.
 struct Scene {
   std::optional<body::Body> body;         ///< of the documents
@@ -53,12 +60,14 @@ struct Scene {
   bool draped = false;                    ///< there is a garment, not only panels
   std::vector<DrawMesh> meshes;           ///< in the order of the documents
   std::vector<std::string> names;         ///< file names, for the PNG's text chunk
+  std::vector<AskedEdge> asked;           ///< of a sidecar with questions
   /// Garments that hang on another body than the one beside them.
   std::vector<Message> findings;
 };
 
 /// Reads documents by their "format" (body.json, shirt.json, panels.json) and bare OBJ,
-/// PLY or STL files (in metres).
+/// PLY or STL files (in metres). A sidecar of seams belongs to the patterns beside it; its
+/// questions are kept.
 /// @param paths  in drawing order
 /// @throws Error INPUT
 Scene read_scene(const std::vector<std::string>& paths);

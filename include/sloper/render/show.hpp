@@ -10,9 +10,12 @@ namespace sloper::render {
 struct Show {
   /// One flag for each overlay.
   bool landmarks = false, bones = false, frames = false, slices = false, seams = false,
-       names = false;
+       names = false,
+       edges = false; ///< names of panel edges, in the flat pattern alone
   /// Whether there is any.
-  bool any() const { return landmarks || bones || frames || slices || seams || names; }
+  bool any() const {
+    return landmarks || bones || frames || slices || seams || names;
+  } // edges: see draw_pattern()
 };
 /// From "landmarks,bones". @throws Error USAGE for an unknown word
 Show parse_show(const std::string& list);

@@ -1,4 +1,5 @@
 #include <pattern/panel_words.hpp>
+#include <pattern/read/choose_pieces.hpp>
 #include <pattern/seams/gore_rows.hpp>
 #include <pattern/seams/missing_seams.hpp>
 #include <pattern/seams/rim_seams.hpp>
@@ -27,6 +28,8 @@ constexpr double GATHERED = 0.08;    // logarithm of lengths
 constexpr double SAME_LENGTH = 0.03; // logarithm: the two sides of a sleeve's seam
 // Log-odds. The model learned from sleeves of two pieces; sleeves of CAD files mostly have one.
 constexpr double SLEEVE_CLOSES = 6;
+constexpr double LEAST_OVERLAP = 1e-6; // of an edge: stretches that touch do not overlap
+constexpr double SPARE_SHARE = 0.1;    // of the cloth: pieces that a garment can do without
 constexpr double SAME_NAME = 5, OTHER_NAME = -1.5, UNLIKELY = -4; // log-odds
 
 double probability(double odds) {
@@ -332,6 +335,42 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   return with_gore_rows(pattern, std::move(climbed));
 }
 
+std::vector<SeamGuess> first_answers(const std::vector<SeamGuess>& guesses) {
+  std::vector<const SeamGuess*> order;
+  for (const SeamGuess& g : guesses)
+    order.push_back(&g);
+  std::stable_sort(order.begin(), order.end(), [](const SeamGuess* a, const SeamGuess* b) {
+    return a->certain != b->certain ? a->certain : a->score > b->score;
+  });
+  std::vector<Run> sewn;
+  const auto is_sewn = [&](const Run& run) {
+    return std::any_of(sewn.begin(), sewn.end(), [&](const Run& other) {
+      return run.panel == other.panel && run.edge == other.edge &&
+             std::min(run.from, run.to) < std::max(other.from, other.to) - LEAST_OVERLAP &&
+             std::min(other.from, other.to) < std::max(run.from, run.to) - LEAST_OVERLAP;
+    });
+  };
+  std::vector<SeamGuess> out;
+  for (const SeamGuess* g : order) {
+    std::vector<Run> runs = g->seam.a;
+    runs.insert(runs.end(), g->seam.b.begin(), g->seam.b.end());
+    const std::size_t before = sewn.size();
+    for (const Run& run : runs) {
+      if (is_sewn(run))
+        break;
+      sewn.push_back(run); // no seam sews a stretch to itself either
+    }
+    if (sewn.size() < before + runs.size()) {
+      sewn.resize(before);
+      continue;
+    }
+    out.push_back(*g);
+    out.back().twin = -1; // indices of another list
+    out.back().with.clear();
+  }
+  return out;
+}
+
 std::vector<std::string> panels_apart(const Pattern& pattern) {
   const std::vector<std::vector<int>> parts = sewn_parts(pattern);
   std::vector<char> apart(pattern.panels.size(), 0);
@@ -343,6 +382,30 @@ std::vector<std::string> panels_apart(const Pattern& pattern) {
     if (apart[p])
       out.push_back(pattern.panels[p].name);
   return out;
+}
+
+std::vector<std::string> leave_out_unsewn(Pattern& pattern) {
+  const std::vector<std::vector<int>> parts = sewn_parts(pattern);
+  std::vector<bool> remove(pattern.panels.size(), false);
+  std::vector<std::string> names;
+  double all = 0, spare = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0 && parts[k].size() > 1)
+      return {};
+    for (const int p : parts[k]) {
+      const double area = pattern.panels[p].area();
+      all += area;
+      if (k == 0)
+        continue;
+      spare += area;
+      remove[p] = true;
+      names.push_back(pattern.panels[p].name);
+    }
+  }
+  if (names.empty() || spare > SPARE_SHARE * all)
+    return {};
+  remove_panels(pattern, remove);
+  return names;
 }
 
 io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& guesses,

@@ -71,6 +71,29 @@ std::vector<Unit> pairs_of_legs(const Pattern& pattern) {
   return units;
 }
 
+/// How surely panels are sewn among themselves.
+double sewn_alone(const Pattern& pattern, const Unit& panels) {
+  Pattern own = pattern;
+  std::vector<bool> remove(pattern.panels.size(), true);
+  for (const int p : panels)
+    remove[p] = false;
+  remove_panels(own, remove);
+  return sewn_surely(own, infer_seams(own));
+}
+
+/// Whether pairs are sewn to each other, and not only each to itself: the halves of a front and of
+/// a back, whose middles and sides look like crotch curves and inseams of trousers.
+bool are_one_garment(const Pattern& pattern, const std::vector<Unit>& pairs) {
+  constexpr double MORE_CLOTH = 1.1; // of what the pairs sew by themselves
+  double apart = 0;
+  Unit all;
+  for (const Unit& pair : pairs) {
+    apart += sewn_alone(pattern, pair);
+    all.insert(all.end(), pair.begin(), pair.end());
+  }
+  return sewn_alone(pattern, all) > MORE_CLOTH * apart;
+}
+
 double cloth_of(const Pattern& pattern, const Unit& unit) {
   double sum = 0;
   for (const int p : unit)
@@ -134,7 +157,8 @@ std::vector<PieceVersions> take_versions(Pattern& pattern,
                                          std::optional<std::vector<SeamGuess>>& inferred) {
   std::vector<PieceVersions> out;
   inferred.reset();
-  if (const std::vector<Unit> legs = pairs_of_legs(pattern); legs.size() > 1)
+  if (const std::vector<Unit> legs = pairs_of_legs(pattern);
+      legs.size() > 1 && !are_one_garment(pattern, legs))
     out.push_back(keep_first(pattern, legs));
   const auto is_sleeve = [](const Words& words) {
     return says_sleeve(words) && !says_cuff(words) && !name_suggests_front(words) &&

@@ -13,19 +13,20 @@ namespace {
 // 80 are wholly right with WORST_EXCHANGE from -7 to -4, DEAREST_EXCHANGE from 1.5 to 5, WORST_JOIN
 // from -6.5 to -5, DEAREST_MERGE from 0.7 to 3 and LEAST_SLIT from 0 to 1. Of 120 fresh designs 36
 // were wholly right without them and 46 are with them.
-constexpr double ASKED = 0.5;          // of pairs that are sewn for the sake of the whole
-constexpr double TWINS = 1.2;          // of two that are exchanged between the same two panels
-constexpr double WORST_EXCHANGE = -7;  // of both pairs that are exchanged, by themselves
-constexpr double DEAREST_EXCHANGE = 3; // by which two pairs may be worse that leave fewer handles
-constexpr double WORST_JOIN = -5.5;    // the mean of the pairs along two rims
-constexpr double LOWEST_IN_MEAN = -9;  // what one pair can take from that mean
-constexpr double DEAREST_MERGE = 1.5;  // by which two pairs may be worse that leave fewer rims
-constexpr double LEAST_SLIT = 0;       // of two sides that follow one another on a rim
-constexpr double SLIT_SIDES = 0.01;    // logarithm: the two sides of a slit
-constexpr std::size_t FEWEST_RIMS = 2; // of a garment: it has to be put on
-constexpr std::size_t MOST_SIDES = 24; // of a rim that is tried
-constexpr double LEAST_GAIN = 0.5;     // of the score of the whole, by which it is changed
-constexpr double SLIVER = 0.015;       // m around
+constexpr double ASKED = 0.5;           // of pairs that are sewn for the sake of the whole
+constexpr double TWINS = 1.2;           // of two that are exchanged between the same two panels
+constexpr double WORST_EXCHANGE = -7;   // of both pairs that are exchanged, by themselves
+constexpr double DEAREST_EXCHANGE = 3;  // by which two pairs may be worse that leave fewer handles
+constexpr double WORST_JOIN = -5.5;     // the mean of the pairs along two rims
+constexpr double LOWEST_IN_MEAN = -9;   // what one pair can take from that mean
+constexpr double DEAREST_MERGE = 1.5;   // by which two pairs may be worse that leave fewer rims
+constexpr double LEAST_SLIT = 0;        // of two sides that follow one another on a rim
+constexpr double SLIT_SIDES = 0.01;     // logarithm: the two sides of a slit
+constexpr std::size_t FEWEST_RIMS = 2;  // of a garment: it has to be put on
+constexpr std::size_t MOST_SIDES = 24;  // of a rim that is tried
+constexpr double LEAST_GAIN = 0.5;      // of the score of the whole, by which it is changed
+constexpr double SLIVER = 0.015;        // m around
+constexpr double SHORTEST_SIDE = 0.004; // m: shorter edges are no sides
 constexpr double SLIVER_SCORE = 0.9;
 
 class Whole {
@@ -314,6 +315,22 @@ void close_slivers(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
     guesses.push_back(
         rim_guess(std::move(seam), is_certain(guesses, seams, rim.edges), SLIVER_SCORE));
   }
+  // Two that follow each other across the end of a seam: the seam goes on over them.
+  for (const Rim& rim : rims_of(pattern, seams))
+    for (std::size_t k = 0; k < rim.edges.size() && rim.edges.size() > 2; ++k) {
+      const RimEdge &own = rim.edges[k], &next = rim.edges[(k + 1) % rim.edges.size()];
+      if (own.seam_after < 0 || own.length >= SHORTEST_SIDE || next.length >= SHORTEST_SIDE)
+        continue;
+      const Edges first{own}, second{next};
+      Seam seam;
+      const Panel& panel = pattern.panels[own.panel];
+      seam.name = panel.name + "." + panel.edge(own.edge).name + " end";
+      seam.a = whole(first, true);
+      seam.b = whole(second, false);
+      guesses.push_back(
+          rim_guess(std::move(seam), is_certain(guesses, seams, first), SLIVER_SCORE));
+      ++k; // no edge twice
+    }
 }
 
 } // namespace sloper::pattern

@@ -171,3 +171,70 @@ case_a_unit_on_the_command_line_that_makes_a_giants_garment_is_refused() {
     [[ ! -e out.json ]] || fail "$unit: meshed"
   done
 }
+
+# A drawing of the skirt without seams, with edges that have numbers for names: some seams are asked for.
+draw_unsewn() {
+  python3 - skirt.pattern.json > drawn.json << 'EOF'
+import json, sys
+document = json.load(open(sys.argv[1]))
+document["seams"] = []
+for panel in document["panels"]:
+    for number, edge in enumerate(panel.get("outline", [])):
+        edge["edge"] = f"edge{number}"
+print(json.dumps(document))
+EOF
+  run 0 "$program" -q --write-pattern drawn.dxf drawn.json
+}
+
+case_first_answers_are_taken_where_nobody_wants_to_be_asked() {
+  draw_unsewn
+  run 1 "$program" --edge-length 0.05 -o asked.json drawn.dxf
+  says "answers with --answers first"
+  says "draws the edges that are asked for"
+  cp stdout questions.json
+  python3 -c 'import json; assert json.load(open("questions.json"))["questions"]' || fail "nothing is asked"
+  run "0|4" "$program" --edge-length 0.05 --answers first -o first.json drawn.dxf
+  says "the first answers to"
+  cp stdout sewing.json
+  python3 - << 'EOF' || fail "not what was asked for"
+import json
+
+questions, sewing, first = (json.load(open(name + ".json")) for name in ("questions", "sewing", "first"))
+assert not sewing["questions"]
+edges = lambda seam: [(run["panel"], run["run"]) for side in "ab" for run in seam[side]]
+sewn = [edge for seam in sewing["seams"] for edge in edges(seam)]
+assert len(sewn) == len(set(sewn)), sewn
+names = [seam["name"] for seam in sewing["seams"]]
+assert all(seam["name"] in names for seam in questions["seams"])
+best = max(questions["questions"], key=lambda question: question["candidates"][0]["score"])
+assert best["candidates"][0]["name"] in names
+taken = [text for text in first["findings"] if "is a first answer" in text]
+assert len(taken) == len(names) - len(questions["seams"]), taken
+EOF
+  # What was written is a sidecar: it may be corrected, and sews the same.
+  run "0|4" "$program" --edge-length 0.05 --sewing sewing.json -o again.json drawn.dxf
+  python3 -c 'import json
+a, b = ([s["name"] for s in json.load(open(n + ".json"))["pattern"]["seams"]] for n in ("first", "again"))
+assert sorted(a) == sorted(b), (a, b)' || fail "the sidecar sews other seams"
+  # Where nothing is found for a piece, the status says so.
+  python3 - << 'EOF'
+import json
+
+document = json.load(open("drawn.json"))
+for name, corners in ("odd", [[0, 0], [250, 0], [120, 220]]), ("spare", [[0, 0], [2, 0], [3, 13], [-4, 11]]):
+    count = len(corners)
+    outline = [{"edge": f"edge{k}", "path": [["L"] + corners[(k + 1) % count]]} for k in range(count)]
+    outline[0]["path"].insert(0, ["M"] + corners[0])
+    panels = document["panels"] + [{"name": name, "outline": outline}]
+    json.dump(dict(document, panels=panels), open(name + ".json", "w"))
+EOF
+  run 0 "$program" -q --write-pattern odd.dxf odd.json
+  run 4 "$program" --edge-length 0.05 --answers first -o odd.panels.json odd.dxf
+  says "nothing is found that odd is sewn to"
+  [[ -s odd.panels.json ]] || fail "not written"
+  # A small one is left out, and named.
+  run 0 "$program" -q --write-pattern spare.dxf spare.json
+  run "0|4" "$program" --edge-length 0.05 --answers first -o spare.panels.json spare.dxf
+  says "nothing is found for them: spare"
+  grep -q '"spare"' stdout || fail "the sidecar does not leave it out"
+}

@@ -206,3 +206,28 @@ case_where_nothing_can_draw_is_told() {
   asks 4 "--context egl: EGL gives no surfaceless display" "" --context egl -o out.png a.body.json
   says "; " # and what to do instead
 }
+
+# Questions of pattern-mesh name edges: the picture of the pieces shows which they are.
+case_edges_that_are_asked_about_are_named_on_the_pieces() {
+  python3 - "$data/skirt.pattern.json" > drawn.json << 'EOF'
+import json, sys
+document = json.load(open(sys.argv[1]))
+document["seams"] = []
+for panel in document["panels"]:
+    for number, edge in enumerate(panel.get("outline", [])):
+        edge["edge"] = f"edge{number}"
+print(json.dumps(document))
+EOF
+  local mesher=${program%/*}/pattern-mesh
+  run 0 "$mesher" -q --write-pattern drawn.dxf drawn.json
+  run 1 "$mesher" --edge-length 0.05 -o panels.json drawn.dxf
+  cp stdout questions.json
+  run 0 "$program" --size 600x500 --view pattern -o plain.png drawn.dxf
+  run 0 "$program" --size 600x500 --view pattern --show edges -o named.png drawn.dxf
+  run 0 "$program" --size 600x500 --view pattern --show edges -o asked.png drawn.dxf questions.json
+  run 1 "$program" --compare --different 0.001 plain.png named.png
+  run 1 "$program" --compare --different 0.001 named.png asked.png
+  asks 2 "is a second sidecar of seams" "one pattern with its sidecar" --view pattern -o out.png drawn.dxf questions.json \
+    "$PWD/questions.json"
+  asks 2 "--show edges: edges are named on the flat pattern" "give --view pattern" --show edges -o out.png drawn.dxf
+}

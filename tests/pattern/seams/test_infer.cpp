@@ -4,6 +4,7 @@
 #include <pattern/seams/gore_rows.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/seams/infer_seams.hpp>
+#include <sloper/pattern/seams/piece_versions.hpp>
 
 #include <set>
 
@@ -175,6 +176,87 @@ TEST(Inference, HalvesOfSleevesAreNotSewnToThoseOfTheOtherArm) {
     const int a = g.seam.a[0].panel, b = g.seam.b[0].panel;
     EXPECT_FALSE(a != b && a % 2 == b % 2) << g.seam.name;
   }
+}
+
+/// Halves of a front and of a back with darts, unsewn: middles and sides look like crotch curves
+/// and inseams of two pairs of trousers.
+const char* const BODICE =
+    R"json({"format": "pattern", "version": 1, "length_unit": "cm", "name": "bodice", "panels": [{"name":
+"P0", "outline": [{"edge": "0", "path": [["M", 0, 0], ["L", 0, 11.79]]}, {"edge": "1", "path":
+[["M", 0, 11.79], ["L", -10.45, 15.26], ["L", -16.76, 24.27], ["L", -16.44, 35.27], ["L", -9.62,
+43.9], ["L", -9.29, 44.11]]}, {"edge": "2", "path": [["M", -9.29, 44.11], ["L", -17.07,
+41.02]]}, {"edge": "3", "path": [["M", -17.07, 41.02], ["L", -19.31, 23.79]]}, {"edge": "4",
+"path": [["M", -19.31, 23.79], ["L", -26.03, 18.04]]}, {"edge": "5", "path": [["M", -26.03,
+18.04], ["L", -26.08, 17.9]]}, {"edge": "6", "path": [["M", -26.08, 17.9], ["L", -13.0,
+16.07]]}, {"edge": "7", "path": [["M", -13.0, 16.07], ["L", -26.08, 14.23]]}, {"edge": "8",
+"path": [["M", -26.08, 14.23], ["L", -24.92, 0]]}, {"edge": "9", "path": [["M", -24.92, 0],
+["L", -10.8, 0]]}, {"edge": "10", "path": [["M", -10.8, 0], ["L", -9.63, 12.76]]}, {"edge":
+"11", "path": [["M", -9.63, 12.76], ["L", -8.47, 0]]}, {"edge": "12", "path": [["M", -8.47, 0],
+["L", 0, 0]]}]}, {"name": "P1", "outline": [{"edge": "0", "path": [["M", 0, 0.37], ["L", 0,
+32.66]]}, {"edge": "1", "path": [["M", 0, 32.66], ["L", -2.85, 33.06], ["L", -5.47, 34.23],
+["L", -7.68, 36.07], ["L", -9.29, 38.44]]}, {"edge": "2", "path": [["M", -9.29, 38.44], ["L",
+-17.23, 35.29]]}, {"edge": "3", "path": [["M", -17.23, 35.29], ["L", -18.88, 18.05]]}, {"edge":
+"4", "path": [["M", -18.88, 18.05], ["L", -23.84, 12.31]]}, {"edge": "5", "path": [["M", -23.84,
+12.31], ["L", -23.84, 12.23]]}, {"edge": "6", "path": [["M", -23.84, 12.23], ["L", -23.13,
+-2]]}, {"edge": "7", "path": [["M", -23.13, -2], ["L", -21.18, -1.6], ["L", -19.22, -1.24],
+["L", -17.27, -0.91], ["L", -15.31, -0.61], ["L", -14.92, -0.56]]}, {"edge": "8", "path": [["M",
+-14.92, -0.56], ["L", -15.28, 10.24]]}, {"edge": "9", "path": [["M", -15.28, 10.24], ["L",
+-13.15, -0.35]]}, {"edge": "10", "path": [["M", -13.15, -0.35], ["L", -12.16, -0.24], ["L",
+-11.18, -0.15], ["L", -10.19, -0.06], ["L", -9.2, 0.02], ["L", -8.61, 0.06]]}, {"edge": "11",
+"path": [["M", -8.61, 0.06], ["L", -8.49, 12.07]]}, {"edge": "12", "path": [["M", -8.49, 12.07],
+["L", -6.83, 0.18]]}, {"edge": "13", "path": [["M", -6.83, 0.18], ["L", -5.27, 0.25], ["L",
+-3.71, 0.31], ["L", -2.15, 0.35], ["L", -0.59, 0.37], ["L", 0, 0.37]]}]}, {"name": "P3",
+"outline": [{"edge": "0", "path": [["M", 0, 0.37], ["L", 1.56, 0.36], ["L", 3.13, 0.33], ["L",
+4.69, 0.28], ["L", 6.25, 0.21], ["L", 6.83, 0.18]]}, {"edge": "1", "path": [["M", 6.83, 0.18],
+["L", 8.49, 12.07]]}, {"edge": "2", "path": [["M", 8.49, 12.07], ["L", 8.61, 0.06]]}, {"edge":
+"3", "path": [["M", 8.61, 0.06], ["L", 9.6, -0.01], ["L", 10.58, -0.1], ["L", 11.57, -0.19],
+["L", 12.56, -0.29], ["L", 13.15, -0.35]]}, {"edge": "4", "path": [["M", 13.15, -0.35], ["L",
+15.28, 10.24]]}, {"edge": "5", "path": [["M", 15.28, 10.24], ["L", 14.92, -0.56]]}, {"edge":
+"6", "path": [["M", 14.92, -0.56], ["L", 16.88, -0.84], ["L", 18.83, -1.17], ["L", 20.78,
+-1.52], ["L", 22.74, -1.92], ["L", 23.13, -2]]}, {"edge": "7", "path": [["M", 23.13, -2], ["L",
+23.84, 12.23]]}, {"edge": "8", "path": [["M", 23.84, 12.23], ["L", 23.84, 12.31]]}, {"edge":
+"9", "path": [["M", 23.84, 12.31], ["L", 18.88, 18.05]]}, {"edge": "10", "path": [["M", 18.88,
+18.05], ["L", 17.23, 35.29]]}, {"edge": "11", "path": [["M", 17.23, 35.29], ["L", 9.29,
+38.44]]}, {"edge": "12", "path": [["M", 9.29, 38.44], ["L", 7.68, 36.07], ["L", 5.47, 34.23],
+["L", 2.85, 33.06], ["L", 0, 32.66]]}, {"edge": "13", "path": [["M", 0, 32.66], ["L", 0,
+0.37]]}]}, {"name": "P4", "outline": [{"edge": "0", "path": [["M", 0, 0], ["L", 8.47, 0]]},
+{"edge": "1", "path": [["M", 8.47, 0], ["L", 9.63, 12.76]]}, {"edge": "2", "path": [["M", 9.63,
+12.76], ["L", 10.8, 0]]}, {"edge": "3", "path": [["M", 10.8, 0], ["L", 24.92, 0]]}, {"edge":
+"4", "path": [["M", 24.92, 0], ["L", 26.08, 14.23]]}, {"edge": "5", "path": [["M", 26.08,
+14.23], ["L", 13.0, 16.07]]}, {"edge": "6", "path": [["M", 13.0, 16.07], ["L", 26.08, 17.9]]},
+{"edge": "7", "path": [["M", 26.08, 17.9], ["L", 26.03, 18.04]]}, {"edge": "8", "path": [["M",
+26.03, 18.04], ["L", 19.31, 23.79]]}, {"edge": "9", "path": [["M", 19.31, 23.79], ["L", 17.07,
+41.02]]}, {"edge": "10", "path": [["M", 17.07, 41.02], ["L", 9.29, 44.11]]}, {"edge": "11",
+"path": [["M", 9.29, 44.11], ["L", 16.3, 35.63], ["L", 16.87, 24.64], ["L", 10.76, 15.49], ["L",
+0.39, 11.8], ["L", 0, 11.79]]}, {"edge": "12", "path": [["M", 0, 11.79], ["L", 0, 0]]}]}],
+"seams": []})json";
+
+TEST(Inference, HalvesOfFrontAndBackAreNoVersionsOfTrousers) {
+  Pattern p = own(BODICE);
+  std::optional<std::vector<SeamGuess>> inferred;
+  EXPECT_TRUE(take_versions(p, inferred).empty());
+  EXPECT_EQ(p.panels.size(), 4u);
+}
+
+TEST(Inference, FirstAnswersSewNoEdgeTwice) {
+  const Pattern p = own(BODICE);
+  std::vector<SeamGuess> guesses = infer_seams(p);
+  const std::size_t all = guesses.size();
+  ASSERT_GT(all, 0u);
+  SeamGuess rival = guesses.front(); // the same edges, less surely
+  rival.certain = false;
+  rival.score = 0.1;
+  guesses.insert(guesses.begin(), rival);
+  SeamGuess folded = guesses.front(); // a band's end that is sewn to itself
+  folded.seam.b = folded.seam.a;
+  EXPECT_TRUE(first_answers({folded}).empty());
+  const std::vector<SeamGuess> answers = first_answers(guesses);
+  EXPECT_LE(answers.size(), all);
+  std::set<std::pair<int, int>> sewn;
+  for (const SeamGuess& g : answers)
+    for (const auto* side : {&g.seam.a, &g.seam.b})
+      for (const pattern::Run& run : *side)
+        EXPECT_TRUE(sewn.insert({run.panel, run.edge}).second) << g.seam.name;
 }
 
 TEST(Inference, HemsAreNeverSewn) {

@@ -5,6 +5,8 @@
 #include <pattern/seams/missing_seams.hpp>
 #include <sloper/pattern/seams/check_pattern.hpp>
 
+#include <random>
+
 namespace sloper::pattern::test {
 namespace {
 
@@ -76,6 +78,44 @@ TEST(MissingSeams, OpeningsAreNotTold) {
   Pattern left_open = skirt();
   left_open.seams[0].open = true;
   EXPECT_EQ(findings_of(left_open), "") << "a closure left undone";
+}
+
+/// A tank top in quarters, all of straight edges. @param eye  cm, half the width of a hole with
+/// straight sides in the side seam; none: 0
+Pattern tank(std::mt19937& random, double eye) {
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 8) / 16777216.0;
+  };
+  const double half = between(22, 34), height = between(55, 80), arm = between(17, 27),
+               shoulder = between(0.45, 0.75) * half, neck = between(0.4, 0.75) * shoulder,
+               slope = between(0, 5), depth = between(3, 14), top = height - arm;
+  DrawnPattern drawn;
+  std::vector<DrawnEdge> edges = {{"hem", half, 0}};
+  std::vector<const char*> sides = {"side"};
+  if (eye > 0) {
+    edges.push_back({"under", half, 0.2 * top});
+    edges.push_back({"eye_a", half - eye, 0.5 * top});
+    edges.push_back({"eye_b", half, 0.8 * top});
+    sides.push_back("under");
+  }
+  for (const DrawnEdge& edge : std::vector<DrawnEdge>{{"side", half, top},
+                                                      {"arm", shoulder, height - slope},
+                                                      {"shoulder", neck, height},
+                                                      {"neck", 0, height - depth},
+                                                      {"middle", 0, 0}})
+    edges.push_back(edge);
+  sides.push_back("shoulder");
+  drawn.quarters(edges, sides, {"middle"});
+  return drawn.pattern();
+}
+
+TEST(MissingSeams, StraightArmholesAreNotToldAndFisheyesAre) {
+  std::mt19937 random(11);
+  for (int k = 0; k < 60; ++k) {
+    EXPECT_EQ(findings_of(tank(random, 0)), "") << k;
+    // A dart of 1 to 4 cm in the side seam, which both halves leave open.
+    EXPECT_NE(findings_of(tank(random, 0.5 + 0.025 * k)), "") << k;
+  }
 }
 
 TEST(MissingSeams, ADartWhoseMouthIsSewnShutIsTold) {

@@ -11,7 +11,8 @@ namespace sloper::pattern {
 /// Finds versions in a pattern without seams, takes all but the first of each part out of it, and
 /// returns them.
 ///
-/// Legs: two pairs or more that each close on themselves and at both crotch curves. Pieces that are
+/// Legs: two pairs or more that each close on themselves and at both crotch curves, and that hardly
+/// sew more cloth together than each by itself. Pieces that are
 /// called collars, or sleeves: where more cloth is sewn more surely (infer_seams()) with one of
 /// them alone than with all; that one is proposed which is sewn best. Costs an inference for each
 /// version and one for all together.
