@@ -273,8 +273,9 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     if (landmark.spread_m > UNSURE * in.s)
       landmark.confidence *= 0.7;
   }
+  // a length that does not move may still be off by what its rule usually is
   for (auto& [name, girth] : body.girths)
-    girth.spread_m = girths[name].rms();
+    girth.spread_m = std::max(girth.spread_m, girths[name].rms());
   for (auto& [name, level] : body.levels) {
     level.y_spread_m = heights[name].rms();
     level.girth_spread_m = level_girths[name].rms();

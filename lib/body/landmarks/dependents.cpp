@@ -27,6 +27,15 @@ constexpr Rests RESTS[] = {{"bust_prominent_l", "bust_point_l", true},
                            {"hip_joint_l", "crotch", true},
                            {"hip_joint_r", "crotch", true},
                            {"hip_center", "crotch", true}};
+/// Girths, and the landmarks whose place decides on their length: a centimetre of
+/// height is two of a thigh.
+struct GirthRests {
+  const char *girth, *on;
+};
+constexpr GirthRests GIRTH_RESTS[] = {{"thigh_l", "crotch"},       {"thigh_r", "crotch"},
+                                      {"crotch_length", "crotch"}, {"neck", "neck_back"},
+                                      {"neck", "neck_front"},      {"neck_base", "neck_back"},
+                                      {"neck_base", "neck_front"}};
 /// Of stature, of the merge below the arm pit: of 1408 arm pits 11 merges are 0.0075 to 0.01 below,
 /// all of them right within 15 mm.
 constexpr double MERGE_BELOW = 0.0125;
@@ -134,6 +143,17 @@ void doubt_unsure(Body& body) {
   }
 }
 
+/// Warns of every girth that is measured where an unsure landmark is.
+void doubt_girths(Body& body) {
+  for (const GirthRests& rests : GIRTH_RESTS)
+    if (body.girths.count(rests.girth) && body.has_landmark(rests.on) &&
+        is_warned_of(body, rests.on) && may_mislead(body, rests.on) &&
+        !is_warned_of(body, rests.girth))
+      body.scan.findings.push_back(
+          {"scan.girth-unsure"_id, "warning",
+           std::string("it is measured beside ") + rests.on + ", which is unsure", rests.girth});
+}
+
 } // namespace
 
 void doubt_dependents(Body& body, double strangeness) {
@@ -160,6 +180,7 @@ void doubt_dependents(Body& body, double strangeness) {
                                   std::string("it rests on ") + rests.on + ", which is unsure",
                                   rests.landmark});
   }
+  doubt_girths(body);
 }
 
 } // namespace sloper::body

@@ -1,9 +1,11 @@
 #include <Eigen/Cholesky>
 #include <body/landmarks/landmark_finder.hpp>
+#include <body/measure/narrowest_neck.hpp>
 #include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::body {
 
@@ -44,6 +46,9 @@ double circle_through(const std::vector<Vec2>& points) {
 }
 
 constexpr double TOO_WIDE = 1.35; ///< of the usual girth: the section has run into the trunk
+/// m: of a fresh scan whose arms had grown together with the trunk both upper arms were 47 to 50 mm
+/// too small.
+constexpr double TOUCHING_ERROR = 0.05;
 
 /// Girth of an arm in a plane through `center`; 0 where there is no section. Where the arm hangs on
 /// the trunk there, `outward` is not zero and `usual` is exceeded, the circle through the outline
@@ -108,10 +113,76 @@ double crotch_length(const Finder& f) {
   return across > 0 ? closed_length(convex_hull(outline)) - across : 0;
 }
 
+/// Length of the neck's middle by four places of the skin: neck rings run higher at the sides than
+/// in front. 0 where one of them is not seen.
+double neck_ring(const Finder& f, const Vec3& front, const Vec3& back, const Vec3& center) {
+  const double s = f.s;
+  const double rise = f.number("neck.girth_up") * s, side_rise = f.number("neck.girth_up_side") * s;
+  const auto fore = midline(f.levels, front.y() + rise, center.x(), 0.006 * s),
+             rear = midline(f.levels, back.y() + rise, center.x(), 0.008 * s);
+  const auto& sides = f.levels.trunk_at(center.y() + side_rise);
+  if (!fore || !rear || !sides)
+    return 0;
+  double left = -1e300, right = 1e300;
+  for (const auto& seg : sides->segments)
+    if (const auto piece = clipped(seg, 1, center.z() - 0.009 * s, center.z() + 0.015 * s))
+      for (const Vec2& q : *piece) {
+        left = std::max(left, q.x());
+        right = std::min(right, q.x());
+      }
+  if (left <= right)
+    return 0;
+  // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck is
+  // not
+  double narrowest = 1e300;
+  for (double y = 0.84 * s; y < 0.90 * s; y += 0.004 * s)
+    if (const auto& loop = f.levels.trunk_at(y))
+      narrowest = std::min(narrowest, loop->size().x());
+  const double middle = 0.5 * (left + right),
+               half = 0.5 * f.number("neck.breadth_to_narrowest") * narrowest;
+  const double measured = std::min(0.5 * (left - right), 1.12 * half);
+  left = middle + 0.5 * (measured + half);
+  right = middle - 0.5 * (measured + half);
+  const double y = center.y() + side_rise, z = center.z() + 0.003 * s;
+  return f.number("neck.ring_factor") *
+         ring_length({Vec3(center.x(), front.y() + rise, fore->front), Vec3(left, y, z),
+                      Vec3(center.x(), back.y() + rise, rear->back), Vec3(right, y, z)});
+}
+
+/// Puts the girths of the neck and of its base. The neck's is the mean of two independent methods:
+/// the ring, which a bent head lengthens, and the least section, which it does not. Of 44 fresh
+/// bodies in natural stances the ring is off by 14.8 mm on average and by 33 mm in 19 of 20, the
+/// mean of both by 9.6 and 22. Where they disagree, half of that is the spread.
+void find_neck_girths(const Finder& f) {
+  /// m, root mean square errors on these bodies: of the mean, of one method alone, of the base
+  constexpr double NECK_ERROR = 0.012, ALONE_ERROR = 0.018, BASE_ERROR = 0.020;
+  if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center"))
+    return;
+  const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), center = f.at("neck_center");
+  const bool has_sides = f.has("neck_side_l") && f.has("neck_side_r");
+  const Vec3 left = has_sides ? f.at("neck_side_l") : Vec3(center + Vec3::UnitX());
+  const Vec3 right = has_sides ? f.at("neck_side_r") : center;
+  const double ring = neck_ring(f, front, back, center);
+  const auto narrowest =
+      narrowest_neck(f.levels.skin(), center, (front - back).cross(left - right).normalized(), f.s);
+  const double section = narrowest ? f.number("neck.of_narrowest") * narrowest->girth_m : ring;
+  const bool has_both = ring > 0 && narrowest;
+  const double girth = has_both ? 0.5 * (ring + section) : std::max(ring, section);
+  if (girth > 0)
+    f.body.girths["neck"] = {girth, has_both ? std::max(NECK_ERROR, std::abs(girth - section))
+                                             : ALONE_ERROR};
+  char text[120];
+  std::snprintf(text, sizeof text, "neck: %.3f m by its ring, %.3f m by its narrowest section",
+                ring, section);
+  f.explain(text);
+  if (has_sides)
+    f.body.girths["neck_base"] = {
+        f.number("neck_base.ring_factor") * ring_length({front, left, back, right}), BASE_ERROR};
+}
+
 } // namespace
 
 void find_girths(const Finder& f) {
-  const double s = f.s;
   if (const double length = crotch_length(f); length > 0)
     f.body.girths["crotch_length"] = {length, 0.005};
   for (int side = 0; side < 2; ++side) {
@@ -151,6 +222,8 @@ void find_girths(const Finder& f) {
     const ArmGirth upper =
         arm_girth(f, arm, 0.5 * (shoulder + elbow), shoulder - elbow, arm.sections.back().girth);
     put("upper_arm", upper.value);
+    if (upper.touches && upper.value > 0)
+      f.body.girths["upper_arm" + suffix].spread_m = TOUCHING_ERROR;
     if (upper.touches)
       f.body.scan.findings.push_back(
           {"scan.arm-touches-trunk"_id, "warning",
@@ -160,47 +233,7 @@ void find_girths(const Finder& f) {
            "upper_arm" + suffix});
     put("wrist", arm_girth(f, arm, wrist, elbow - wrist, 1e300).value);
   }
-  // neck rings run higher at the sides than in front: quarter ellipses through four points of the
-  // skin
-  if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center"))
-    return;
-  const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), center = f.at("neck_center");
-  const double rise = f.number("neck.girth_up") * s, side_rise = f.number("neck.girth_up_side") * s;
-  const auto fore = midline(f.levels, front.y() + rise, center.x(), 0.006 * s),
-             rear = midline(f.levels, back.y() + rise, center.x(), 0.008 * s);
-  const auto& sides = f.levels.trunk_at(center.y() + side_rise);
-  if (fore && rear && sides) {
-    double left = -1e300, right = 1e300;
-    for (const auto& seg : sides->segments)
-      if (const auto piece = clipped(seg, 1, center.z() - 0.009 * s, center.z() + 0.015 * s))
-        for (const Vec2& q : *piece) {
-          left = std::max(left, q.x());
-          right = std::min(right, q.x());
-        }
-    if (left > right) {
-      // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck
-      // is not
-      double narrowest = 1e300;
-      for (double y = 0.84 * s; y < 0.90 * s; y += 0.004 * s)
-        if (const auto& loop = f.levels.trunk_at(y))
-          narrowest = std::min(narrowest, loop->size().x());
-      const double middle = 0.5 * (left + right),
-                   half = 0.5 * f.number("neck.breadth_to_narrowest") * narrowest;
-      const double measured = std::min(0.5 * (left - right), 1.12 * half);
-      left = middle + 0.5 * (measured + half);
-      right = middle - 0.5 * (measured + half);
-      const double y = center.y() + side_rise, z = center.z() + 0.003 * s;
-      const double ring =
-          ring_length({Vec3(center.x(), front.y() + rise, fore->front), Vec3(left, y, z),
-                       Vec3(center.x(), back.y() + rise, rear->back), Vec3(right, y, z)});
-      f.body.girths["neck"] = {f.number("neck.ring_factor") * ring, 0.008};
-    }
-  }
-  if (f.has("neck_side_l") && f.has("neck_side_r"))
-    f.body.girths["neck_base"] = {
-        f.number("neck_base.ring_factor") *
-            ring_length({front, f.at("neck_side_l"), back, f.at("neck_side_r")}),
-        0.012};
+  find_neck_girths(f);
 }
 
 } // namespace sloper::body

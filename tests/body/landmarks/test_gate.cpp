@@ -3,6 +3,7 @@
 #include <body/landmarks/gate.hpp>
 #include <support/figures.hpp>
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <sloper/body/pose.hpp>
 
@@ -120,6 +121,28 @@ TEST(Dependents, share_the_doubt_of_what_they_rest_on) {
   EXPECT_TRUE(is_warned_of("hip_joint_l"));
   doubt_dependents(body, 1.2);
   EXPECT_LT(body.landmarks["olecranon_l"].confidence, 0.5);
+}
+
+/// A scan with a hole at the crotch: thighs were 31 to 36 mm too long below a crotch that was
+/// reported, and were not reported themselves.
+TEST(Dependents, girths_share_the_doubt_of_the_landmark_beside_them) {
+  Body body;
+  body.scan.stature_m = 1.7;
+  body.landmarks["crotch"] = {Vec3(0, 0.8, 0), 1, "below_buttocks", 0.3, 0.01, {}};
+  body.girths = {{"thigh_l", {0.6, 0.003}}, {"knee_l", {0.4, 0.003}}, {"neck", {0.36, 0.012}}};
+  auto reports_of = [&](const std::string& name) {
+    return std::count_if(
+        body.scan.findings.begin(), body.scan.findings.end(),
+        [&](const Finding& f) { return f.place == name && f.severity == "warning"; });
+  };
+  doubt_dependents(body, 0.8);
+  EXPECT_EQ(reports_of("thigh_l"), 0);
+  body.scan.findings.push_back({"scan.crotch-estimated"_id, "warning", "hidden", "crotch"});
+  doubt_dependents(body, 0.8);
+  EXPECT_EQ(reports_of("thigh_l"), 1);
+  EXPECT_EQ(reports_of("thigh_r"), 0) << "it was not measured";
+  EXPECT_EQ(reports_of("knee_l"), 0);
+  EXPECT_EQ(reports_of("neck"), 0);
 }
 
 /// Of 28 scans as scanners deliver them five had a crotch that was estimated, told and 3 to 8 cm
