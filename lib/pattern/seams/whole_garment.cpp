@@ -315,7 +315,7 @@ void close_slivers(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
     guesses.push_back(
         rim_guess(std::move(seam), is_certain(guesses, seams, rim.edges), SLIVER_SCORE));
   }
-  // Two that follow each other across the end of a seam: the seam goes on over them.
+  // Two that follow each other across the end of a seam: the seam covers them too.
   for (const Rim& rim : rims_of(pattern, seams))
     for (std::size_t k = 0; k < rim.edges.size() && rim.edges.size() > 2; ++k) {
       const RimEdge &own = rim.edges[k], &next = rim.edges[(k + 1) % rim.edges.size()];

@@ -172,7 +172,8 @@ case_a_unit_on_the_command_line_that_makes_a_giants_garment_is_refused() {
   done
 }
 
-# A drawing of the skirt without seams, with edges that have numbers for names: some seams are asked for.
+# A drawing of the skirt without seams, with edges that have numbers for names: some seams are asked
+# for.
 draw_unsewn() {
   python3 - skirt.pattern.json > drawn.json << 'EOF'
 import json, sys
