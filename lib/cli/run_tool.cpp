@@ -281,6 +281,13 @@ static void check_outputs(CLI::App& app) {
   }
 }
 
+/// Whether a file that is read is a document by its name, and so has a mesh beside it. A scan that
+/// is called anna.obj has none: anna.obj.obj belongs to an output called anna.obj.json.
+static bool names_a_document(const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  return ending.empty() || ending == ".json";
+}
+
 /// The files of an option that is read ("input_file") or written ("output_file"), each with the
 /// mesh that a document has beside it.
 static std::vector<std::filesystem::path> files_of(CLI::Option* option,
@@ -294,7 +301,8 @@ static std::vector<std::filesystem::path> files_of(CLI::Option* option,
         (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent)))
       continue;
     files.emplace_back(path);
-    files.emplace_back(io::mesh_path_beside(path));
+    if (validator == "output_file" || names_a_document(path))
+      files.emplace_back(io::mesh_path_beside(path));
   }
   return files;
 }

@@ -15,6 +15,16 @@ case_a_scan_is_never_written_over() {
   [[ ! -e out.json && ! -e other.json ]] || fail "something was written"
 }
 
+case_a_document_may_carry_the_name_of_its_scan() {
+  cp a.ply b.obj.ply && cp a.ply before
+  local pass
+  for pass in first second; do
+    run 0 "$program" -q -o b.obj.ply.json b.obj.ply
+    [[ -s b.obj.ply.json && -s b.obj.ply.obj ]] || fail "the $pass run wrote no document and mesh"
+  done
+  cmp -s b.obj.ply before || fail "the scan is another one"
+}
+
 case_a_document_is_not_named_as_a_mesh() {
   run 2 "$program" -o out.obj a.ply
   says "out.obj is the name of a mesh; name the document: out.json"
