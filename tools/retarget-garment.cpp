@@ -217,7 +217,7 @@ int run(cli::Tool& tool, Options o) {
     sizes = garment::rank_sizes(files, body,
                                 garment::girths_covered(garment::read_garment(o.garment), body));
     if (mode == garment::RetargetMode::KEEP_FABRIC)
-      garment::put_closing_sizes_first(sizes, body);
+      garment::put_closing_sizes_first(sizes, body, policy);
     o.garment = sizes.sizes.front().file;
     tool.reporter().info(garment::ranking_text(sizes));
   }

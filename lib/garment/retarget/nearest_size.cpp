@@ -1,11 +1,14 @@
 #include <sloper/garment/retarget/nearest_size.hpp>
 
 #include <garment/fit/fit_places.hpp>
+#include <garment/fit/garment_regions.hpp>
 #include <garment/retarget/seat.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/text.hpp>
 #include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/fit/worn_policy.hpp>
 #include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/materials.hpp>
 #include <sloper/garment/retarget/retarget.hpp>
 #include <sloper/io/json.hpp>
 
@@ -19,7 +22,6 @@ namespace sloper::garment {
 namespace {
 
 constexpr double LEAST_SPREAD_M = 0.002; // of a girth: nothing is known better
-constexpr double MOST_SHORT = 0.03;      // of the waist: too_small_ease of the policy for wovens
 
 /// Before the name of a level in Garment::body_girths_m.
 const std::string LEVEL = "level:";
@@ -166,12 +168,23 @@ SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& 
   return ranking;
 }
 
-static double waist_shortage(const Garment& garment, const body::Body& body) {
+/// Measures how a size closes at the waist, and what the policy and its fabric bear there.
+static void measure_waist(SizeRank& size, const body::Body& body, FitPolicy policy) {
+  const Garment garment = read_garment(size.file);
   if (garment.bind.empty() || !why_impossible(garment, body).empty())
-    return 0;
+    return;
   Garment placed = garment;
   placed.position = place_garment(garment, body, Waist::SEMANTIC);
-  return seat_of_waist(placed, garment.position, body).short_share;
+  size.short_share = seat_of_waist(placed, garment.position, body).short_share;
+  follow_fabric(garment, policy);
+  const FitLimits limits =
+      policy.limits("top_edge", class_of(regions_of(placed, body)), main_material(garment));
+  size.bearable_share = std::max(0.0, -limits.too_small_ease);
+}
+
+/// By how much more a size is too short at the waist than the policy bears.
+static double unbearable_share(const SizeRank& size) {
+  return std::max(0.0, size.short_share - size.bearable_share);
 }
 
 /// Standard deviation of a waist girth, a share of it.
@@ -181,21 +194,22 @@ static double waist_spread(const body::Body& body) {
   return waist == known.end() ? 0 : waist->second.spread_m / waist->second.value_m;
 }
 
-void put_closing_sizes_first(SizeRanking& ranking, const body::Body& body) {
+void put_closing_sizes_first(SizeRanking& ranking, const body::Body& body,
+                             const FitPolicy& policy) {
   if (ranking.sizes.size() < 2)
     return;
   for (SizeRank& size : ranking.sizes)
-    size.short_share = waist_shortage(read_garment(size.file), body);
+    measure_waist(size, body, policy);
   const std::string nearest = ranking.sizes.front().file;
-  std::stable_sort(
-      ranking.sizes.begin(), ranking.sizes.end(), [](const SizeRank& a, const SizeRank& b) {
-        return std::max(a.short_share, MOST_SHORT) < std::max(b.short_share, MOST_SHORT);
-      });
+  std::stable_sort(ranking.sizes.begin(), ranking.sizes.end(),
+                   [](const SizeRank& a, const SizeRank& b) {
+                     return unbearable_share(a) < unbearable_share(b);
+                   });
   if (ranking.sizes.front().file == nearest)
     return;
   const auto passed_over = std::find_if(ranking.sizes.begin(), ranking.sizes.end(),
                                         [&](const SizeRank& size) { return size.file == nearest; });
-  const double beyond = passed_over->short_share - MOST_SHORT;
+  const double beyond = passed_over->short_share - passed_over->bearable_share;
   const double spread = waist_spread(body);
   ranking.sureness = spread > 0 ? 0.5 * std::erfc(-beyond / (spread * std::sqrt(2.0))) : 1;
 }
@@ -207,8 +221,8 @@ static std::string why_first(const SizeRanking& ranking) {
                    [&](const SizeRank& size) { return size.distance < first.distance; });
   if (is_nearest)
     return " is nearest";
-  return first.short_share > MOST_SHORT ? " is the least short at the waist"
-                                        : " is the nearest that closes at the waist";
+  return unbearable_share(first) > 0 ? " is the least short at the waist"
+                                     : " is the nearest that closes at the waist";
 }
 
 std::string ranking_text(const SizeRanking& ranking) {
@@ -235,7 +249,8 @@ io::Json ranking_json(const SizeRanking& ranking) {
     j["nearest_first"].push_back({{"file", io::file_name(size.file)},
                                   {"distance", size.distance},
                                   {"girths", size.girths},
-                                  {"short_share", size.short_share}});
+                                  {"short_share", size.short_share},
+                                  {"bearable_share", size.bearable_share}});
   return j;
 }
 

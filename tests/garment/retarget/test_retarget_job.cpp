@@ -97,16 +97,35 @@ TEST_F(ARetargetedSkirt, that_does_not_close_at_the_waist_comes_after_a_size_tha
   ranking.sizes = {{.file = folder / "skirt@S.json", .distance = 0.01, .girths = 1},
                    {.file = folder / "skirt@L.json", .distance = 0.02, .girths = 1}};
   const SizeRanking by_distance = ranking;
-  put_closing_sizes_first(ranking, other.body);
+  put_closing_sizes_first(ranking, other.body, standard_fit_policy());
   EXPECT_EQ(ranking.sizes[0].file, by_distance.sizes[1].file);
   EXPECT_GT(ranking.sizes[1].short_share, 0.03);
   EXPECT_LE(ranking.sizes[0].short_share, 0.03);
+  EXPECT_DOUBLE_EQ(ranking.sizes[0].bearable_share, 0.03);
   EXPECT_NE(ranking_text(ranking).find("is the nearest that closes at the waist"),
             std::string::npos);
 
   ranking = by_distance; // on a slimmer body both close
-  put_closing_sizes_first(ranking, Figure("f-160-a").body);
+  put_closing_sizes_first(ranking, Figure("f-160-a").body, standard_fit_policy());
   EXPECT_EQ(ranking.sizes[0].file, by_distance.sizes[0].file);
+
+  ranking = by_distance; // a policy that bears as much
+  FitPolicy elastic = standard_fit_policy();
+  elastic.own.all.girths["top_edge"].too_small_ease = -0.9;
+  put_closing_sizes_first(ranking, other.body, elastic);
+  EXPECT_EQ(ranking.sizes[0].file, by_distance.sizes[0].file);
+  EXPECT_DOUBLE_EQ(ranking.sizes[0].bearable_share, 0.9);
+
+  ranking = by_distance; // a knit bears more than a woven cloth
+  Garment knit = *s_skirt;
+  for (pattern::PanelInfo& panel : knit.panels.panels)
+    panel.material = "jersey";
+  write_garment(folder / "skirt@S.json", knit, "test");
+  put_closing_sizes_first(ranking, other.body, standard_fit_policy());
+  for (const SizeRank& size : ranking.sizes)
+    if (size.file == by_distance.sizes[0].file) {
+      EXPECT_GT(size.bearable_share, 0.05);
+    }
 }
 
 TEST_F(ARetargetedSkirt, is_chosen_by_the_girths_that_it_goes_round) {

@@ -1,6 +1,7 @@
 #pragma once
 /// A picture from above of cloth that hangs over a disc, measured.
 /// Test: tests/garment/drapemeter/test_drapemeter.cpp
+#include <sloper/geometry/types.hpp>
 #include <sloper/io/png.hpp>
 
 #include <string>

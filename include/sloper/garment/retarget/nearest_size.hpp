@@ -1,6 +1,7 @@
 #pragma once
 /// Which size of a garment was draped on the body most like another one.
 #include <sloper/body/body.hpp>
+#include <sloper/garment/fit/fit_policy.hpp>
 #include <sloper/garment/garment.hpp>
 #include <sloper/io/json_fwd.hpp>
 
@@ -20,6 +21,9 @@ struct SizeRank {
   /// By how much its top edge does not close on the other body, a share of the girth there:
   /// put_closing_sizes_first(); 0 where it closes.
   double short_share = 0;
+  /// Of the girth there, as much as the fit policy allows the top edge to be too short: more of a
+  /// knit than of a woven cloth; 0 before put_closing_sizes_first().
+  double bearable_share = 0;
 };
 /// All sizes in order.
 struct SizeRanking {
@@ -53,11 +57,13 @@ SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& 
                        const std::set<std::string>& compared = {});
 
 /// Moves sizes of skirts and trousers that do not close at the waist behind those that do: a band
-/// that is shorter than the waist by more than 3 % is refused by the fit however near the hip is.
-/// Among those that do not close the least short comes first. Each size is placed on the body by
-/// its coordinates (seat.hpp). Cost: the reading of each garment, and about 20 ms.
+/// that is shorter than the waist by more than the policy bears there (3 % of a woven cloth) is
+/// refused by the fit however near the hip is. Among those that do not close, the one
+/// that is the least beyond what is borne comes first. Each size is placed on the body by its
+/// coordinates (seat.hpp). Cost: the reading of each garment, and about 20 ms.
 /// @param ranking  of rank_sizes(), in and out
-void put_closing_sizes_first(SizeRanking& ranking, const body::Body& body);
+/// @param policy  that the fit will be judged by; what the fabric of a size bears is added to it
+void put_closing_sizes_first(SizeRanking& ranking, const body::Body& body, const FitPolicy& policy);
 
 /// "of 3 sizes shirt@M.json is nearest (2.1 %), with a probability of 93 %; then ..."
 std::string ranking_text(const SizeRanking& ranking);
