@@ -1,4 +1,5 @@
 #include <sloper/base/error.hpp>
+#include <sloper/base/number_text.hpp>
 #include <sloper/cli/options.hpp>
 
 #include <sys/stat.h>
@@ -6,7 +7,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace sloper::cli {
@@ -19,17 +19,11 @@ static std::string ending_of(const std::string& path) {
   return ending;
 }
 
-static std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
 Check finite_in(double low, double high, const std::string& unit) {
   const std::string tail = unit.empty() ? "" : " " + unit;
   std::string range;
   if (low > -1e300 && high < 1e300)
-    range = number_text(low) + " to " + number_text(high) + tail;
+    range = range_text(low, high) + tail;
   else if (low > -1e300)
     range = "at least " + number_text(low) + tail;
   else if (high < 1e300)

@@ -1,11 +1,14 @@
 #include <garment/kes.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/number_text.hpp>
 #include <sloper/cloth/bending_plates.hpp>
 #include <sloper/garment/composite.hpp>
 #include <sloper/garment/material_json.hpp>
 #include <sloper/garment/materials.hpp>
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
+
+#include <cmath>
 
 namespace sloper::garment {
 
@@ -37,6 +40,8 @@ constexpr MaterialKey DIRECTION_KEYS[] = {
     {"bend_bias_n_m", &Material::bend_bias_n_m, 0, 1e3},
     {"bend_soft_share", &Material::bend_soft_share, 0, 1},
 };
+/// Of a rigidity that a message asks for, rounded up: 1 / (N m).
+constexpr double ASKED_STEPS = 1e9;
 constexpr MaterialKey SOFT_RADIUS = {"bend_soft_radius_m", &Material::bend_soft_radius_m, 1e-4, 10};
 
 void read_key(const io::Node& node, const MaterialKey& key, Material& m) {
@@ -45,8 +50,7 @@ void read_key(const io::Node& node, const MaterialKey& key, Material& m) {
   m.*key.field = node.at(key.name).number();
   if (m.*key.field < key.low || m.*key.field > key.high)
     node.at(key.name).fail("json.out-of-range"_id, "is out of range",
-                           "give a value from " + std::to_string(key.low) + " to " +
-                               std::to_string(key.high));
+                           "give a value from " + range_text(key.low, key.high));
 }
 
 Material named_material(const io::Node& node) {
@@ -66,9 +70,9 @@ Material measured_material(const std::string& path) {
     if (!(m.*key.field >= key.low && m.*key.field <= key.high))
       throw input_error("kes.malformed"_id, path, "property " + std::string(key.measured),
                         "its values give a " + std::string(key.name) + " of " +
-                            std::to_string(m.*key.field) + ", out of range",
-                        "it lies between " + std::to_string(key.low) + " and " +
-                            std::to_string(key.high) + "; check the units");
+                            rounded_text(m.*key.field) + ", out of range",
+                        "it lies between " + number_text(key.low) + " and " +
+                            number_text(key.high) + "; check the units");
   return m;
 }
 
@@ -102,7 +106,7 @@ void settle_bending(const io::Node& node, Material& m) {
   if (m.bend_bias_n_m < (1 - 1e-9) * least)
     node.fail("material.bias-too-soft"_id, "the bias bends more easily than warp and weft allow",
               "give a bend_bias_n_m of (sqrt(warp) - sqrt(weft))^2 / 4 = " +
-                  std::to_string(1e6 * least) + "e-6 or more");
+                  number_text(std::ceil(ASKED_STEPS * least) / ASKED_STEPS) + " or more");
 }
 
 std::vector<ClothLayer> read_layers(const io::Node& node) {

@@ -121,6 +121,33 @@ TEST(Materials, what_no_sheet_can_bend_like_is_refused) {
   }
 }
 
+TEST(Materials, a_refusal_names_the_range_in_plain_numbers_and_a_rigidity_that_is_accepted) {
+  const test::ScratchFolder folder;
+  const auto write = [&](const std::string& keys) {
+    io::write_file(folder / "m.json", R"({"format": "material", "version": 1, )" + keys + "}");
+  };
+  const auto refusal = [&] {
+    try {
+      material_from(folder / "m.json");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  write(R"("bend_n_m": -1)");
+  EXPECT_NE(refusal().find("give a value from 0 to 1000"), std::string::npos) << refusal();
+  EXPECT_EQ(refusal().find(".000"), std::string::npos) << refusal();
+  const std::string sides = R"("bend_warp_n_m": 4e-5, "bend_weft_n_m": 1.1e-6, )",
+                    before = "(sqrt(warp) - sqrt(weft))^2 / 4 = ";
+  write(sides + R"("bend_bias_n_m": 1e-6)");
+  const std::string text = refusal();
+  const std::size_t begin = text.find(before), end = text.find(" or more");
+  ASSERT_TRUE(begin < end && end != std::string::npos) << text;
+  const std::string asked = text.substr(begin + before.size(), end - begin - before.size());
+  write(sides + R"("bend_bias_n_m": )" + asked);
+  EXPECT_EQ(refusal(), "accepted") << asked;
+}
+
 TEST(Materials, a_single_rigidity_takes_the_place_of_a_preset_s_directions) {
   const test::ScratchFolder folder;
   io::write_file(

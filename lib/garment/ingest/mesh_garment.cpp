@@ -4,6 +4,7 @@
 #include <garment/bind/bind_weights.hpp>
 #include <garment/ingest/flat_panels.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/number_text.hpp>
 #include <sloper/base/text.hpp>
 #include <sloper/collision/intersections.hpp>
 #include <sloper/garment/bind/bind.hpp>
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numeric>
 
@@ -61,12 +61,6 @@ double nearness_of(const std::vector<Vec3>& points, const collision::BodyCollide
   return sum / static_cast<double>(n);
 }
 
-std::string number_text(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
-
 /// The most likely coordinates of a mesh.
 WornFrame frame_of(const io::MeshFile& file, const body::Body& from,
                    const collision::BodyCollider& skin) {
@@ -85,10 +79,10 @@ WornFrame frame_of(const io::MeshFile& file, const body::Body& from,
   const Vec3 size = box.size();
   throw input_error("import.not-worn"_id, file.name, "",
                     "lies nowhere near the body, whatever its unit: it is " +
-                        number_text(size.x()) + " x " + number_text(size.y()) + " x " +
-                        number_text(size.z()) + " units large, around (" +
-                        number_text(box.center().x()) + ", " + number_text(box.center().y()) +
-                        ", " + number_text(box.center().z()) + ")",
+                        rounded_text(size.x()) + " x " + rounded_text(size.y()) + " x " +
+                        rounded_text(size.z()) + " units large, around (" +
+                        rounded_text(box.center().x()) + ", " + rounded_text(box.center().y()) +
+                        ", " + rounded_text(box.center().z()) + ")",
                     "export it as that body wears it, in the coordinates of its scan or of its "
                     "body.obj");
 }
@@ -150,7 +144,7 @@ void tell(const MeshGarment& m, Reporter& reporter) {
       counted(static_cast<int>(m.file.positions.size()), "vertex", "vertices") + " in " +
       (m.frame.in_scan
            ? "the scan's coordinates"
-           : "the body's coordinates, a unit of " + number_text(m.frame.unit_m) + " m") +
+           : "the body's coordinates, a unit of " + rounded_text(m.frame.unit_m) + " m") +
       "; " + counted(static_cast<int>(m.garment.panels.triangles.size()), "triangle", "triangles") +
       " of cloth in " + counted(m.panels, "panel", "panels") + ", rest shape from " +
       (m.rest_from_texture ? "its texture coordinates" : "the mesh") + "; " +

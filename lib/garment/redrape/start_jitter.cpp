@@ -1,4 +1,5 @@
 #include <sloper/base/error.hpp>
+#include <sloper/base/number_text.hpp>
 #include <sloper/base/random.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/garment/redrape/start_jitter.hpp>
@@ -44,8 +45,7 @@ void set_jitter(StartJitter& jitter, const std::string& assignment) {
     const auto read = std::from_chars(assignment.data() + equals + 1, end, value);
     if (read.ec != std::errc() || read.ptr != end || !(value >= 0 && value <= b.most))
       throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", place,
-                  "the value is no number in range",
-                  "give one from 0 to " + std::to_string(static_cast<int>(b.most)));
+                  "the value is no number in range", "give one from " + range_text(0, b.most));
     jitter.*b.field = value * b.unit;
     return;
   }

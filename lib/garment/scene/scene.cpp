@@ -2,6 +2,7 @@
 #include <garment/scene/preset_table.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/number_text.hpp>
 #include <sloper/garment/material_json.hpp>
 #include <sloper/garment/materials.hpp>
 #include <sloper/garment/scene/scene.hpp>
@@ -238,7 +239,7 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
     if (name == k.name) {
       if (!(value >= k.low && value <= k.high))
         throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", name, "is out of range",
-                    "give a value from " + std::to_string(k.low) + " to " + std::to_string(k.high));
+                    "give a value from " + range_text(k.low, k.high));
       if (k.real)
         settings.*k.real = value;
       else

@@ -1,4 +1,5 @@
 #include <garment/scene/scene_effects_json.hpp>
+#include <sloper/base/number_text.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/io/json.hpp>
 
@@ -23,7 +24,7 @@ double in_range(const Node& node, const char* key, double fallback, double low, 
   const double value = node.at(key).number();
   if (!(value >= low && value <= high))
     node.at(key).fail("json.out-of-range"_id, "is out of range",
-                      "give a value from " + std::to_string(low) + " to " + std::to_string(high));
+                      "give a value from " + range_text(low, high));
   return value;
 }
 

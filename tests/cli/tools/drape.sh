@@ -252,8 +252,8 @@ case_the_manual_has_each_setting_with_its_range() {
   [[ $(sed -n '/^# Settings/,/^# Stretched/s/^- `\([a-z0-9_]*\)`, .*/\1/p' "$man" | paste -sd, | sed 's/,/, /g') == "$known" ]] || fail "other settings than $known"
   for name in ${known//,/}; do
     run 2 "$program" --panels panels.json --set "$name=1e99" -o out.json
-    range=$(sed -n 's/.*give a value from \([0-9.]*\) to \([0-9.]*\).*/\1 \2/p' stderr | awk 'function short(x) { sub(/0+$/, "", x); sub(/[.]$/, "", x); return x } { print short($1) " to " short($2) }')
-    [[ $(sed -n "s/^- .$name., \([0-9.]* to [0-9.]*\):.*/\1/p" "$man") == "$range" ]] || fail "$name has another range than $range"
+    range=$(sed -n 's/.*give a value from \([0-9.e-]* to [0-9.]*\).*/\1/p' stderr)
+    [[ $(sed -n "s/^- .$name., \([0-9.e-]* to [0-9.]*\):.*/\1/p" "$man") == "$range" ]] || fail "$name has another range than $range"
     "$program" --help | tr -s ' \n' ' ' | grep -q "$name" || fail "--help does not name $name"
   done
 }
