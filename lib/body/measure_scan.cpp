@@ -396,7 +396,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   else
     result.trail.push_back("spread: not measured, the usual one of each rule is given");
   if (!skin.whole && !is_torso)
-    doubt_made_up_skin(body, scan_points, shape_points);
+    doubt_made_up_skin(body, scan_points, shape_points,
+                       confirmed_pits(body, *options.corrections, result.features));
   doubt_dependents(body, options.corrections->strangeness(result.features));
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part =

@@ -50,6 +50,14 @@ std::optional<double> front_of(const LevelStack& levels, double y) {
 
 } // namespace
 
+Box3 navel_box(const Rules& rules, double stature) {
+  const double aside = rules.number("figure.navel_aside") * stature;
+  Box3 box;
+  box.low = Vec3(-aside, rules.number("figure.navel_low") * stature, -1);
+  box.high = Vec3(aside, rules.number("figure.navel_high") * stature, 1);
+  return box;
+}
+
 FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms,
                             const Rules& rules, std::vector<std::string>& trail) {
   FigureClass figure;
@@ -83,11 +91,7 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
     box.high = Vec3(side == 0 ? outer : -inner, rules.number("figure.chest_high") * s, 1);
     figure.nipple[side] = strongest_relief(skin, box, radius, 1);
   }
-  const double navel_aside = rules.number("figure.navel_aside") * s;
-  Box3 box;
-  box.low = Vec3(-navel_aside, rules.number("figure.navel_low") * s, -1);
-  box.high = Vec3(navel_aside, rules.number("figure.navel_high") * s, 1);
-  figure.navel = strongest_relief(skin, box, radius, -1);
+  figure.navel = strongest_relief(skin, navel_box(rules, s), radius, -1);
   const double to_usual_stature = rules.number("figure.usual_stature") / s;
   for (auto* relief : {&figure.nipple[0], &figure.nipple[1], &figure.navel})
     if (*relief)

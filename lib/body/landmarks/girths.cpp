@@ -156,6 +156,9 @@ double neck_ring(const Finder& f, const Vec3& front, const Vec3& back, const Vec
 void find_neck_girths(const Finder& f) {
   /// m, root mean square errors on these bodies: of the mean, of one method alone, of the base
   constexpr double NECK_ERROR = 0.012, ALONE_ERROR = 0.018, BASE_ERROR = 0.020;
+  /// Of the section: a ring longer than this has run over the chin of a bent head, and does not
+  /// count; it counts half from LONG_RING down.
+  constexpr double LONG_RING = 1.2, CHIN = 1.3;
   if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center"))
     return;
   const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), center = f.at("neck_center");
@@ -167,10 +170,14 @@ void find_neck_girths(const Finder& f) {
       narrowest_neck(f.levels.skin(), center, (front - back).cross(left - right).normalized(), f.s);
   const double section = narrowest ? f.number("neck.of_narrowest") * narrowest->girth_m : ring;
   const bool has_both = ring > 0 && narrowest;
-  const double girth = has_both ? 0.5 * (ring + section) : std::max(ring, section);
+  const double of_ring =
+      has_both ? std::clamp((CHIN - ring / section) / (CHIN - LONG_RING), 0.0, 1.0) : 1;
+  const double girth =
+      has_both ? section + 0.5 * of_ring * (ring - section) : std::max(ring, section);
   if (girth > 0)
-    f.body.girths["neck"] = {girth, has_both ? std::max(NECK_ERROR, std::abs(girth - section))
-                                             : ALONE_ERROR};
+    f.body.girths["neck"] = {girth, has_both && of_ring > 0
+                                        ? std::max(NECK_ERROR, std::abs(girth - section))
+                                        : ALONE_ERROR};
   char text[120];
   std::snprintf(text, sizeof text, "neck: %.3f m by its ring, %.3f m by its narrowest section",
                 ring, section);

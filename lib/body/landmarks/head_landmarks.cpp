@@ -213,7 +213,8 @@ void find_head_landmarks(const Finder& f) {
                                         {"height_ratio", [&] { return Height(back_ratio); }}});
   if (!back_y)
     return;
-  const double back_at = f.more_likely("neck_back", back_y->value + f.correction("neck_back").y());
+  const double back_by_rule = back_y->value + f.correction("neck_back").y();
+  const double back_at = f.more_likely("neck_back", back_by_rule);
   const auto back = midline(f.levels, back_at, x, NAPE_HALF_WIDTH * s),
              front = midline(f.levels, front_at, x, THROAT_HALF_WIDTH * s);
   if (!back || !front) {
@@ -234,7 +235,7 @@ void find_head_landmarks(const Finder& f) {
     also("neck_back", *by_throat, false);
   if (by_turn)
     also("neck_back", *by_turn, false);
-  find_neck_sides(f, x, back_at, turn,
+  find_neck_sides(f, x, back_by_rule, turn,
                   back->back + f.number("neck_side.from_back") * (front->front - back->back));
   const Vec3 center(x, 0.5 * (back_at + front_at), 0.5 * (back->back + front->front));
   f.find("neck_center", "", 2, {{"middle_of_neck_ring", [&] { return std::optional(center); }}});

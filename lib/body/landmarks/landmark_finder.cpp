@@ -74,18 +74,16 @@ double Finder::by_population(const std::string& place, double otherwise) const {
 }
 
 double Finder::more_likely(const std::string& place, double y) const {
-  const auto expected = corrections.expected(place, shape, -1);
+  const auto expected = corrections.extrapolated(place, shape, -1);
   if (!expected)
     return y;
-  const double off = y / s - expected->height;
-  if (std::abs(off) < Corrections::DISAGREE * expected->sd)
-    return y;
+  const double weight = expected->weight(y / s);
   char text[160];
   std::snprintf(text, sizeof text,
-                "%s: by the rest of the body, which lets expect it %.0f mm %s than its rule",
-                place.c_str(), 1000 * s * std::abs(off), off > 0 ? "lower" : "higher");
+                "%s: %.3f m high by its rule, %.3f by the rest of the body, which counts %.2f",
+                place.c_str(), y, s * expected->height, weight);
   explain(text);
-  return expected->height * s;
+  return y + weight * (s * expected->height - y);
 }
 
 Vec3 Finder::corrected(const std::string& place, const std::string& suffix, const Vec3& p,

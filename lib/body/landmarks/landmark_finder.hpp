@@ -20,6 +20,9 @@ struct FigureClass {
   std::optional<ReliefPoint> nipple[2], navel;
 };
 
+/// Where a navel can be, body frame, m.
+Box3 navel_box(const Rules& rules, double stature);
+
 FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms,
                             const Rules& rules, std::vector<std::string>& trail);
 
@@ -80,8 +83,11 @@ struct Finder {
   /// Height, m, at which the rest of the body lets expect a landmark; `otherwise` for a body unlike
   /// those learned from.
   double by_population(const std::string& place, double otherwise) const;
-  /// The likelier of a rule's height `y`, m, and of that which the rest of the body lets expect:
-  /// where they are farther apart than Corrections::DISAGREE allows, the latter; the trail says so.
+  /// The mean of a rule's height `y`, m, and of that which the rest of the body lets expect, the
+  /// latter the heavier the farther they are apart; `y` for a body unlike all learned from. Of 102
+  /// fresh bodies, 62 of them in natural stances, the back of the neck is off by 6.9 mm by its rule
+  /// (standard deviation), by 3.1 by the rest of the body and by 3.2 so; the front by 6.7, 3.2 and
+  /// 3.3.
   double more_likely(const std::string& place, double y) const;
   /// `p` with its correction; `on_skin`: the nearest skin to that.
   Vec3 corrected(const std::string& place, const std::string& suffix, const Vec3& p,

@@ -16,6 +16,9 @@ constexpr double FROM_POINTS =
 constexpr double SPACINGS = 2.5;      ///< ... or so many spacings of the points, where that is more
 constexpr double RESTS_NEAR = 0.03;   ///< of stature: a landmark this near to it rests on it
 constexpr double MADE_UP_DOUBT = 0.5; ///< of the confidence
+/// Standard deviations, of 13 mm, within which a pit is confirmed: the pits of a scan with holes
+/// there that were 40 mm too low are three off.
+constexpr double CONFIRMED = 1.5;
 /// What stands or falls together: one place of skin or one fold.
 const std::vector<std::vector<std::string>> SKIN_PLACES = {
     {"axilla_l", "axilla_front_l", "axilla_back_l", "axilla_merge_l"},
@@ -60,8 +63,27 @@ bool is_made_up(const TriangleMesh& skin, const Vec3& p, double reach, const Poi
 
 } // namespace
 
+std::vector<std::string> confirmed_pits(const Body& body, const Corrections& corrections,
+                                        const ShapeFeatures& features) {
+  constexpr const char* PITS[] = {"axilla_l", "axilla_r"};
+  const double s = body.scan.stature_m;
+  std::vector<std::string> confirmed;
+  for (int side = 0; side < 2; ++side) {
+    const auto expected = corrections.expected("axilla_by_shoulders", features, side);
+    if (!expected || !body.has_landmark(PITS[side]))
+      continue;
+    if (std::abs(body.landmark(PITS[side]).y() / s - expected->height) > CONFIRMED * expected->sd)
+      continue;
+    const std::string suffix = side == 0 ? "_l" : "_r";
+    for (const char* name : {"axilla", "axilla_front", "axilla_back"})
+      confirmed.push_back(name + suffix);
+  }
+  return confirmed;
+}
+
 void doubt_made_up_skin(Body& body, const std::vector<Vec3>& points,
-                        const std::vector<Vec3>& on_faces) {
+                        const std::vector<Vec3>& on_faces,
+                        const std::vector<std::string>& confirmed) {
   if (points.empty() || body.skin.triangles.empty())
     return;
   const double s = body.scan.stature_m;
@@ -87,6 +109,8 @@ void doubt_made_up_skin(Body& body, const std::vector<Vec3>& points,
     for (const std::string& name : together) {
       const auto it = body.landmarks.find(name);
       if (it == body.landmarks.end() || is_warned(name))
+        continue;
+      if (std::find(confirmed.begin(), confirmed.end(), name) != confirmed.end())
         continue;
       it->second.spread_m = std::max(it->second.spread_m, far);
       it->second.confidence *= MADE_UP_DOUBT;

@@ -63,13 +63,30 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
              {{"smallest_width", [&] { return least_of("waist_width_min", &Level::width_m); }}});
 }
 
+/// How surely a shallow dimple is more than roughness, 0 to 1: another place as deep makes it a
+/// chance one.
+double is_single(const Finder& f, const ReliefPoint& dimple) {
+  constexpr double APART = 0.013; // of stature, between dimples
+  const double radius = f.number("figure.relief_radius") * f.s;
+  const double deepest = -dimple.height * f.s / f.number("figure.usual_stature");
+  const auto dimples =
+      tallest_reliefs(f.levels.skin(), navel_box(f.rules, f.s), radius, -1, APART * f.s, 0, 2);
+  const double rival = dimples.size() < 2 ? 0 : -dimples[1].height / deepest;
+  char text[120];
+  std::snprintf(text, sizeof text, "navel: another dimple is %.2f as deep", rival);
+  f.explain(text);
+  const double least = f.number("omphalion.rival"), range = 1 - least;
+  return std::clamp((1 - rival) / range, 0.0, 1.0);
+}
+
 /// Navel: a dimple near the middle, or the proportion. @return its height
 std::optional<double> find_navel(const Finder& f) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
   // The mean of two estimates: the one from the population moves by 6 mm with a lean of the scan,
   // the share of the trunk does not.
   const double by_trunk = crotch + f.number("omphalion.of_trunk") * trunk,
-               expected = 0.5 * (by_trunk + f.by_population("omphalion", by_trunk));
+               expected = 0.5 * (by_trunk + f.by_population("omphalion", by_trunk)),
+               likely = expected + f.correction("omphalion").y();
   const auto& dimple = f.figure.navel;
   const auto place = f.choose<Vec2>(
       "omphalion", "omphalion",
@@ -77,8 +94,7 @@ std::optional<double> find_navel(const Finder& f) {
         [&]() -> std::optional<Vec2> {
           if (!dimple)
             return std::nullopt;
-          // by how deep it is and how near to the proportion it counts, so that nothing jumps: half
-          // for the depth that the rule names
+          // by how deep it is and how near to the proportion it counts, so that nothing jumps
           const double deep = -dimple->height / f.number("omphalion.dimple"),
                        off = std::abs(dimple->p.y() - expected) /
                              (f.number("omphalion.dimple_near") * s);
@@ -86,16 +102,16 @@ std::optional<double> find_navel(const Finder& f) {
                                               f.number("omphalion.dimple_range"),
                                           0.0, 1.0) *
                                std::clamp(3 * (1 - off), 0.0, 1.0);
-          if (share <= 0)
+          const double single = deep < 1 ? is_single(f, *dimple) : 1;
+          if (share * single <= 0)
             return std::nullopt;
           const Vec2 seen(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
-          return Vec2(share * seen + (1 - share) * Vec2(0, expected));
+          return Vec2(Vec2(0, likely) + share * single * (seen - Vec2(0, likely)));
         }},
-       {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
+       {"trunk_ratio", [&] { return std::optional(Vec2(0, likely)); }}});
   if (!place)
     return std::nullopt;
-  const double navel =
-      place->value.y() + (place->rule->name == "dimple" ? 0.0 : f.correction("omphalion").y());
+  const double navel = place->value.y();
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
   if (const auto p = front_at(f, place->value.x(), navel, FRONT_HALF_WIDTH * s))
     f.put("omphalion", *p, 2, *place->rule);

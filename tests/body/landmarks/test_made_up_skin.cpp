@@ -34,10 +34,14 @@ TEST(MadeUpSkin, landmarks_beside_a_closed_hole_are_told) {
   put("head_tip", hole); // its height is known all the same
   put("crotch", hole);
   body.scan.findings.push_back({"scan.crotch-estimated"_id, "warning", "hidden", "crotch"});
-  doubt_made_up_skin(body, points, {});
+  doubt_made_up_skin(body, points, {}, {});
   ASSERT_EQ(body.scan.findings.size(), 2U);
   EXPECT_EQ(body.scan.findings.back().place, "axilla_l");
   EXPECT_LT(body.landmarks["axilla_l"].confidence, 0.6);
   EXPECT_GT(body.landmarks["axilla_l"].spread_m, 0.01);
   EXPECT_EQ(body.landmarks["axilla_r"].confidence, 0.6);
+  body.scan.findings.clear();
+  doubt_made_up_skin(body, points, {}, {"axilla_l"}); // a second method says the same
+  ASSERT_EQ(body.scan.findings.size(), 1U);
+  EXPECT_EQ(body.scan.findings.back().place, "crotch");
 }

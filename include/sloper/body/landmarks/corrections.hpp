@@ -58,6 +58,13 @@ public:
   struct Expected {
     double height = 0; ///< of stature
     double sd = 0;     ///< of stature, of bodies that were not learned from
+    /// Weight of this height against a rule's, off^2 / (off^2 + 1), off = (y - height) / sd: where
+    /// they agree the rule's counts, the farther they are apart the less.
+    /// @param y  height by a rule, of stature
+    double weight(double y) const {
+      const double off = (y - height) / sd;
+      return off * off / (off * off + 1);
+    }
   };
   /// The height that the rest of the body predicts for a landmark; empty for places that
   /// were not learned and for bodies unlike the others. Arguments as of offset().
