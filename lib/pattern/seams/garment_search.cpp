@@ -1,5 +1,6 @@
 #include <pattern/seams/garment_search.hpp>
 #include <pattern/seams/open_rims.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,10 @@ constexpr double WORST_RIM = -7;              // the mean of the pairs along two
 constexpr std::size_t LONGEST_RIM_SIDES = 24; // of a rim that is tried
 constexpr int MOST_STEPS = 40;                // of a climb
 constexpr int MOST_CUT = 12;                  // seams of a ring that is cut
+// Of 107 random designs five had darts at a free hem that gained 0.4 of the score each, less than
+// the 0.5 of a change. Of 60 others four had skirts with one slit that is cut as a wedge of 2 cm.
+constexpr double LEAST_DART_TIP = 290 * units::PI / 180, MOST_DART_TIP = 357 * units::PI / 180;
+constexpr double DART_SIDES = 0.01; // logarithm of lengths
 
 } // namespace
 
@@ -33,6 +38,26 @@ void GarmentSearch::apply(const GarmentMove& move, Matching& partner) {
 
 bool GarmentSearch::possible(int i, int j) const {
   return i != j && m_view.base(i, j) > WORST_TRIED;
+}
+
+/// Whether a side and the next one are the legs of a wedge that is cut out of their panel.
+bool GarmentSearch::begins_dart(int side) const {
+  const SeamSide& own = m_sides[side];
+  return own.after >= 0 && own.after != side && own.corner_end > LEAST_DART_TIP &&
+         own.corner_end < MOST_DART_TIP &&
+         std::abs(std::log(own.length / m_sides[own.after].length)) < DART_SIDES;
+}
+
+/// People are symmetric: a wedge that has no like is a slit.
+bool GarmentSearch::is_one_of_two_darts(const SidePair& pair) const {
+  const int own = m_sides[pair[0]].after == pair[1] ? pair[0] : pair[1];
+  if (m_sides[own].after != pair[0] + pair[1] - own || !begins_dart(own))
+    return false;
+  for (int k = 0; k < std::ssize(m_sides); ++k)
+    if (k != own && begins_dart(k) &&
+        std::abs(std::log(m_sides[k].length / m_sides[own].length)) < DART_SIDES)
+      return true;
+  return false;
 }
 
 std::vector<SidePair> GarmentSearch::loose(const Matching& partner) const {
@@ -246,23 +271,27 @@ std::vector<GarmentMove> GarmentSearch::moves(const Matching& partner) const {
 
 Matching GarmentSearch::climb(Matching partner, const std::vector<double>& weights,
                               double margin) const {
-  double now = garment_score(m_view.counts(partner), weights);
+  const auto closes_darts = [&](const GarmentMove& move) {
+    return move.out.empty() &&
+           std::all_of(move.in.begin(), move.in.end(),
+                       [&](const SidePair& pair) { return is_one_of_two_darts(pair); });
+  };
   for (int step = 0; step < MOST_STEPS; ++step) {
-    double most = now + margin;
+    const double now = garment_score(m_view.counts(partner), weights);
+    double most = 0;
     std::optional<Matching> best;
     for (const GarmentMove& move : moves(partner)) {
       Matching then = partner;
       apply(move, then);
-      const double score = garment_score(m_view.counts(then), weights);
-      if (score > most) {
-        most = score;
+      const double gain = garment_score(m_view.counts(then), weights) - now;
+      if (gain > most && (gain > margin || closes_darts(move))) {
+        most = gain;
         best = std::move(then);
       }
     }
     if (!best)
       break;
     partner = std::move(*best);
-    now = most;
   }
   return partner;
 }

@@ -20,7 +20,8 @@ public:
   /// All moves from an assembly, each once.
   std::vector<GarmentMove> moves(const Matching& partner) const;
 
-  /// Climbs by the best move until none is better by more than `margin`.
+  /// Climbs by the best move until none is better by more than `margin`, or by any gain where it
+  /// only closes darts of which the garment has two alike.
   Matching climb(Matching partner, const std::vector<double>& weights, double margin) const;
 
   static void apply(const GarmentMove& move, Matching& partner);
@@ -29,6 +30,8 @@ private:
   using Moves = std::vector<GarmentMove>;
   std::vector<SidePair> loose(const Matching& partner) const;
   bool possible(int i, int j) const;
+  bool begins_dart(int side) const;
+  bool is_one_of_two_darts(const SidePair& pair) const;
   void single_moves(const Matching& partner, Moves& out) const;
   void exchanges(const Matching& partner, Moves& out) const;
   void turns(const Matching& partner, Moves& out) const;

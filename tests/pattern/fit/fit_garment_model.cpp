@@ -1,12 +1,13 @@
 /// Fits the weights "whole" of seam_model.json to specifications whose seams are known. They are
 /// written by themselves; the trees of seam_model.json come first (fit_seam_model.cpp).
 ///
-///   fit_garment_model WEIGHTS.json [-v] SPECIFICATION...
+///   fit_garment_model WEIGHTS.json [-v] [-p] SPECIFICATION...
 ///
 /// The true assembly is to score more than any other that a climb meets: those one move away from
 /// it, the one that is guessed pair by pair, and where a climb from that one ends with the weights
 /// of the round before. Logistic regression on the differences of their clues. Specifications
-/// whose path has "keep" in it are not learned from but reported on.
+/// whose path has "keep" in it are not learned from but reported on. With -p the present weights
+/// are what is guessed first, for clues that are new or a few designs more.
 #include "renaming.hpp"
 #include "specimen.hpp"
 
@@ -151,9 +152,8 @@ void find_worse(Case& c, const std::vector<double>& weights) {
 }
 
 /// Newton's method with a ridge about what was guessed first.
-std::vector<double> weigh(const std::vector<Case>& cases) {
+std::vector<double> weigh(const std::vector<Case>& cases, const std::vector<double>& prior) {
   constexpr int STEPS = 30;
-  const std::vector<double> prior = first_guess();
   const Eigen::Index n = GarmentClues::COUNT;
   Counts w = Eigen::Map<const Counts>(prior.data(), n);
   const Counts w0 = w;
@@ -192,6 +192,22 @@ std::vector<double> weigh(const std::vector<Case>& cases) {
   return out;
 }
 
+/// True seams whose sides are both free in a guess: the log-odds of each, and what the score gains
+/// by it.
+void print_open(const Case& c, const Matching& end, const std::vector<double>& weights) {
+  const double now = garment_score(c.view->counts(end), weights);
+  for (const auto& [i, j] : c.garment->truth) {
+    if (end[i] >= 0 || end[j] >= 0)
+      continue;
+    Matching then = end;
+    GarmentSearch::apply({{}, {{i, j}}}, then);
+    const SeamSide &a = c.garment->sides[i], &b = c.garment->sides[j];
+    std::printf("   open %d.%d (%.1f cm), %d.%d (%.1f cm): log-odds %.1f, gain %.1f\n", a.panel,
+                a.first, 100 * a.length, b.panel, b.first, 100 * b.length, c.view->base(i, j),
+                garment_score(c.view->counts(then), weights) - now);
+  }
+}
+
 void report(const char* what, const std::vector<Case>& cases, const std::vector<double>& weights,
             bool verbose) {
   std::size_t whole[2] = {0, 0}, hits[2] = {0, 0}, guessed[2] = {0, 0}, sewn = 0;
@@ -207,12 +223,14 @@ void report(const char* what, const std::vector<Case>& cases, const std::vector<
       guessed[k] += of[k];
       whole[k] += own[k] == of[k] && of[k] == c.garment->truth.size();
     }
-    if (verbose && (own[0] != own[1] || of[0] != of[1]))
+    if (verbose && (own[1] != of[1] || own[1] != c.garment->truth.size()))
       std::printf("%s: %zu seams, %zu of %zu, then %zu of %zu; score %.1f, then %.1f, truth %.1f\n",
                   c.garment->path.c_str(), c.garment->truth.size(), own[0], of[0], own[1], of[1],
                   garment_score(c.view->counts(end[0]), weights),
                   garment_score(c.view->counts(end[1]), weights),
                   garment_score(c.view->counts(c.truth), weights));
+    if (verbose)
+      print_open(c, end[1], weights);
   }
   for (std::size_t k = 0; k < 2; ++k)
     std::printf("%s %s: F1 %.3f, wholly right %zu of %zu\n", what, k ? "then" : "pair by pair",
@@ -230,9 +248,15 @@ int main(int argc, char** argv) {
   }
   std::vector<Case> train, kept;
   bool verbose = false;
+  std::vector<double> first = first_guess();
   for (int k = 2; k < argc; ++k) {
     if (std::string(argv[k]) == "-v") {
       verbose = true;
+      continue;
+    }
+    if (std::string(argv[k]) == "-p") {
+      first = seam_model().whole;
+      first.resize(GarmentClues::COUNT, 0);
       continue;
     }
     Pattern pattern = read_pattern(argv[k], PatternChoice{});
@@ -243,14 +267,17 @@ int main(int argc, char** argv) {
   }
   std::printf("%zu to learn from, %zu kept\n", train.size(), kept.size());
   std::fflush(stdout);
-  std::vector<double> weights = first_guess();
+  std::vector<double> weights = first;
+  report("kept, as guessed first", kept, weights, verbose && train.empty());
+  if (train.empty())
+    return 0;
   for (int round = 0; round < ROUNDS; ++round) {
     std::size_t examples = 0;
     for (Case& c : train) {
       find_worse(c, weights);
       examples += c.worse.size();
     }
-    weights = weigh(train);
+    weights = weigh(train, first);
     std::printf("round %d: %zu examples\n", round, examples);
     report("kept", kept, weights, verbose && round + 1 == ROUNDS);
   }

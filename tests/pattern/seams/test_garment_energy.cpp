@@ -1,5 +1,5 @@
 /// A dress whose skirt may be turned on its waist: pair by pair all four turns look alike.
-#include <support/pattern_texts.hpp>
+#include <support/straight_patterns.hpp>
 
 #include <gtest/gtest.h>
 #include <pattern/seams/garment_search.hpp>
@@ -101,6 +101,82 @@ TEST(GarmentView, ClothAroundPointsThatAreSewnAllRoundIsCounted) {
   for (std::size_t k = 0; k < G::CLOSED; ++k)
     closed += counts[G::AT_CLOSED + k];
   EXPECT_EQ(closed, 4) << "two middles and two sides at the waist";
+}
+
+/// Panels of straight edges, whose sides are found by name.
+struct Drawn {
+  Pattern pattern;
+  std::vector<SeamSide> sides;
+  std::vector<double> base;
+  Matching partner;
+
+  explicit Drawn(const DrawnPattern& drawn)
+      : pattern(drawn.pattern()), sides(seam_sides(pattern, all_corners(pattern), 0)),
+        base(sides.size() * sides.size(), OPEN), partner(sides.size(), -1) {}
+
+  int side(const std::string& panel, const std::string& edge) const {
+    const int p = pattern.find_panel(panel), e = pattern.panels[p].find_edge(edge);
+    for (int k = 0; k < std::ssize(sides); ++k)
+      if (sides[k].panel == p && sides[k].first == e)
+        return k;
+    return -1;
+  }
+  void forbid_all() { std::fill(base.begin(), base.end(), SeamWitness::IMPOSSIBLE); }
+  void set_base(const std::string& panel, const std::string& edge, const std::string& other,
+                const std::string& its_edge, double odds) {
+    const std::size_t i = static_cast<std::size_t>(side(panel, edge)),
+                      j = static_cast<std::size_t>(side(other, its_edge)), n = sides.size();
+    base[i * n + j] = base[j * n + i] = odds;
+  }
+};
+
+/// What a climb makes of panels whose darts gain 0.3 of the score, in so many panels alike.
+Matching darts_sewn(Drawn& garment) {
+  std::vector<double> weights(G::COUNT, 0);
+  weights[G::AT_ODDS + 6] = 0.3; // of OPEN
+  garment.forbid_all();
+  for (const Panel& panel : garment.pattern.panels)
+    garment.set_base(panel.name, "into", panel.name, "out_of", OPEN);
+  const GarmentView view(garment.pattern, garment.sides, garment.base);
+  const GarmentSearch search(garment.pattern, garment.sides, view,
+                             std::vector<char>(garment.sides.size(), 0));
+  return search.climb(garment.partner, weights, 0.5);
+}
+
+TEST(GarmentSearch, DartsAtAFreeHemAreSewnForALittleMoreOfAGarmentAndASlitIsNot) {
+  // Of 107 random designs five had darts that were left open: each made the whole better by less
+  // than what a change has to. A slit of a skirt is cut in the same shape, once.
+  const std::vector<DrawnEdge> half = {{"hem", 10, 0},  {"into", 12, 15},   {"out_of", 14, 0},
+                                       {"hem2", 30, 0}, {"middle", 33, 40}, {"neck", 10, 40},
+                                       {"side", 0, 0}};
+  DrawnPattern two, one;
+  one.panel("back", half);
+  two.panel("left", half);
+  two.panel("right", seen_in_mirror(half));
+  two.panel("other", {{"into", 20, 0}, {"out_of", 20, 40}, {"top", 0, 40}, {"side", 0, 0}});
+  Drawn back(two), skirt(one);
+  const Matching found = darts_sewn(back);
+  for (const char* panel : {"left", "right"})
+    EXPECT_EQ(found[back.side(panel, "into")], back.side(panel, "out_of")) << panel;
+  EXPECT_EQ(found[back.side("other", "into")], -1) << "no wedge";
+  EXPECT_EQ(darts_sewn(skirt), skirt.partner);
+}
+
+TEST(GarmentSearch, ASmallGainDoesNotSewANeckToAHem) {
+  // As the neck and the hem of a tank top whose front and back are drawn alike.
+  Dress dress;
+  const Matching whole = dress.turned(0);
+  std::fill(dress.base.begin(), dress.base.end(), SeamWitness::IMPOSSIBLE);
+  Matching other = whole;
+  dress.sew(other, Dress::torso(0, 2), Dress::skirt(0, 0), OPEN);
+  const GarmentView view(dress.pattern, dress.sides, dress.base);
+  const GarmentSearch search(dress.pattern, dress.sides, view,
+                             std::vector<char>(dress.sides.size(), 0));
+  std::vector<double> weights(G::COUNT, 0);
+  weights[G::AT_ODDS + 6] = 0.3; // of OPEN
+  EXPECT_EQ(search.climb(whole, weights, 0.5), whole);
+  weights[G::AT_ODDS + 6] = 0.6;
+  EXPECT_EQ(search.climb(whole, weights, 0.5), other) << "more than the margin";
 }
 
 TEST(GarmentSearch, ATurnedSkirtIsTurnedBack) {
