@@ -136,7 +136,7 @@ inline void add_options(cli::Tool& tool, Options& o) {
                "go on where a run with --checkpoint run.checkpoint.json was killed");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json",
                "go on, more exactly");
-  tool.example("drape --body body.json --panels panels.json --max-error-mm 0.5 --report "
+  tool.example("drape --body body.json --panels panels.json --max-error-mm 1 --report "
                "report.json -o shirt.json",
                "as accurate as that, and no more");
 }
