@@ -118,7 +118,7 @@ namespace {
 /// those of the fit. What the fit does not look for is known.
 FabricTests tests_of_pictures(const Material& truth) {
   DrapemeterSetup finer;
-  finer.edge_m = 0.0075;
+  finer.edge_m = 0.0065;
   FabricTests tests;
   tests.base = truth;
   tests.base.bend_n_m = 8e-6;

@@ -13,7 +13,7 @@ namespace sloper::garment {
 struct DrapemeterSetup {
   /// Of the supporting disc and of the cloth.
   double disc_radius_m = 0.09, specimen_radius_m = 0.15;
-  double edge_m = 0.009;        ///< mean edge of the mesh
+  double edge_m = 0.008;        ///< mean edge of the mesh
   const char* membrane = "fem"; ///< "fem", or "springs", whose own shear drapes limp cloth stiffer
 };
 
@@ -31,7 +31,7 @@ struct DrapemeterResult {
 
 /// Drapes one specimen. Only the ring outside the disc is meshed; three rings of
 /// particles are held, the outermost half a cell beyond the disc's rim. About 1 CPU
-/// second at 9 mm.
+/// second at 8 mm.
 /// @param setup  radii above 0, the specimen's larger; edge_m below half the free width
 /// @param seed  of the unevenness with which the specimen comes down: another one is
 /// another drape of the same cloth
