@@ -110,8 +110,8 @@ void lower_unevenly(const DrapemeterSetup& setup, const Ring& ring, std::uint64_
 
 /// Steps without inertia until nothing moves. Solves end early, since a line search keeps the
 /// energy falling all the same: of eight specimens (four fabrics, edges of 9 mm) a drape took a
-/// quarter of the time of one with a tolerance of 1e-4 and no line search, and made a hundred times
-/// stiller its coefficient moved by less than 0.1 points.
+/// quarter of the time of one with a tolerance of 1e-4 and no line search
+/// (docs/decisions/simulated-drapemeter.md).
 /// @return steps, and whether nothing moves
 std::pair<int, bool> bring_to_rest(cloth::ClothSolver& solver) {
   cloth::StepOptions o;
