@@ -91,7 +91,7 @@ Check document_file() {
                ", the mesh is written beside it";
     return "";
   };
-  return {"output_file", "FILE", check};
+  return {"document_file", "FILE", check};
 }
 
 Check document_or_mesh_file() {
@@ -102,7 +102,7 @@ Check document_or_mesh_file() {
       return "a mesh cannot go to standard output; name a file";
     return "";
   };
-  return {"output_file", "FILE", check};
+  return {"document_file", "FILE", check};
 }
 
 Check one_of(const std::vector<std::string>& words) {

@@ -59,7 +59,8 @@ static OptionRow row_of(CLI::Option& option) {
     row.choices = split(validator_text(option, "one_of"), '|');
     row.range = validator_text(option, "finite_in");
     row.is_file = row.value == "FILE" || !validator_text(option, "input_file").empty() ||
-                  !validator_text(option, "output_file").empty();
+                  !validator_text(option, "output_file").empty() ||
+                  !validator_text(option, "document_file").empty();
     if (row.is_file && row.value == "TEXT")
       row.value = "FILE";
     if (!row.choices.empty() && row.value == "TEXT")

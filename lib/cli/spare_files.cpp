@@ -12,12 +12,18 @@
 
 namespace sloper::cli {
 
-bool has_validator(CLI::Option* option, const std::string& name) {
+/// Whether an option has a check of that name: "input_file" where it is read, "output_file" or
+/// "document_file" where it is written, the latter with a mesh beside it.
+static bool has_validator(CLI::Option* option, const std::string& name) {
   try {
     return option->get_validator(name) != nullptr;
   } catch (const CLI::OptionNotFound&) {
     return false;
   }
+}
+
+bool is_written(CLI::Option* option) {
+  return has_validator(option, "output_file") || has_validator(option, "document_file");
 }
 
 /// Whether a file that is read is a document by its name, and so has a mesh beside it. A scan
@@ -27,23 +33,33 @@ static bool names_a_document(const std::filesystem::path& path) {
   return ending.empty() || ending == ".json";
 }
 
-/// The files of an option that is read ("input_file") or written ("output_file"), each with the
-/// mesh that a document has beside it.
-static std::vector<std::filesystem::path> files_of(CLI::Option* option,
-                                                   const std::string& validator) {
+/// The regular files of an option, each with the mesh that a document has beside it.
+template <typename HasMesh>
+static std::vector<std::filesystem::path> files_of(CLI::Option* option, const HasMesh& has_mesh) {
   std::vector<std::filesystem::path> files;
-  if (!has_validator(option, validator))
-    return files;
   for (const std::string& path : option->results()) {
     std::error_code absent;
     if (path == "-" ||
         (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent)))
       continue;
     files.emplace_back(path);
-    if (validator == "output_file" || names_a_document(path))
+    if (has_mesh(path))
       files.emplace_back(io::mesh_path_beside(path));
   }
   return files;
+}
+
+static std::vector<std::filesystem::path> files_read(CLI::Option* option) {
+  if (!has_validator(option, "input_file"))
+    return {};
+  return files_of(option, names_a_document);
+}
+
+static std::vector<std::filesystem::path> files_written(CLI::Option* option) {
+  if (!is_written(option))
+    return {};
+  const bool document = has_validator(option, "document_file");
+  return files_of(option, [document](const std::string&) { return document; });
 }
 
 void spare_files(CLI::App& app) {
@@ -59,7 +75,7 @@ void spare_files(CLI::App& app) {
   };
   const auto options = app.get_options([](const CLI::Option*) { return true; });
   for (CLI::Option* writing : options)
-    for (const std::filesystem::path& written : files_of(writing, "output_file"))
+    for (const std::filesystem::path& written : files_written(writing))
       for (CLI::Option* other : options) {
         const auto goes_on = [&](const auto& names) {
           return other->get_name(other->get_positional()) == names.first &&
@@ -67,7 +83,7 @@ void spare_files(CLI::App& app) {
         };
         if (std::any_of(std::begin(GOES_ON), std::end(GOES_ON), goes_on))
           continue;
-        for (const std::filesystem::path& read : files_of(other, "input_file"))
+        for (const std::filesystem::path& read : files_read(other))
           if (same(written, read))
             throw Error(
                 ErrorKind::USAGE, "file.would-overwrite-input"_id, written, writing->get_name(),
@@ -76,7 +92,7 @@ void spare_files(CLI::App& app) {
                 "name another output");
         if (other == writing)
           continue;
-        for (const std::filesystem::path& twice : files_of(other, "output_file"))
+        for (const std::filesystem::path& twice : files_written(other))
           if (same(written, twice))
             throw Error(ErrorKind::USAGE, "file.written-twice"_id, written, writing->get_name(),
                         "would be written by " + other->get_name() + " too", "name two files");

@@ -1,7 +1,5 @@
 #pragma once
 /// Files that a command line must not write over. Test: tests/cli (common-cases).
-#include <string>
-
 namespace CLI {
 class App;
 class Option;
@@ -9,9 +7,8 @@ class Option;
 
 namespace sloper::cli {
 
-/// Whether an option has a check of that name: "input_file" where it is read, "output_file" where
-/// it is written.
-bool has_validator(CLI::Option* option, const std::string& name);
+/// Whether an option names a file that is written, by its check.
+bool is_written(CLI::Option* option);
 
 /// Nothing that is read is written over, and nothing is written twice. What continues a document
 /// may take its place.

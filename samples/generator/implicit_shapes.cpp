@@ -70,12 +70,24 @@ TubeKnot Tube::section(double y) const {
           mix(a.back, b.back), mix(a.exponent, b.exponent)};
 }
 
+/// (u^e + v^e)^(1/e) of two numbers that are not negative: one power less than as it stands, and
+/// none for a circle.
+static double power_norm(double u, double v, double e) {
+  if (e == 2)
+    return std::sqrt(u * u + v * v);
+  const double larger = std::max(u, v);
+  const double smaller = std::min(u, v);
+  if (smaller == 0)
+    return larger;
+  return larger * std::pow(1 + std::pow(smaller / larger, e), 1 / e);
+}
+
 double Tube::distance(const Vec3& p) const {
   const TubeKnot s = section(p.y());
   const double x = p.x() - s.center_x, z = p.z() - s.center_z;
   const double u = std::abs(x) / (x > 0 ? s.left : s.right),
                v = std::abs(z) / (z > 0 ? s.front : s.back);
-  const double rho = std::pow(std::pow(u, s.exponent) + std::pow(v, s.exponent), 1 / s.exponent);
+  const double rho = power_norm(u, v, s.exponent);
   const double r = std::sqrt(x * x + z * z);
   const double inner = std::min(std::min(s.left, s.right), std::min(s.front, s.back));
   // Along the ray from the section's centre; near the centre itself the ray has no direction.

@@ -7,8 +7,9 @@
 namespace sloper::samples {
 namespace {
 
-constexpr int BLOCK =
-    6; ///< cells along one side of a block that is skipped as a whole when far from the surface
+constexpr int BLOCK = 6; ///< cells along one side of a block that is skipped as a whole when far
+                         ///< from the surface
+constexpr int PART = 3;  ///< the same for the eight parts of a block that is not
 constexpr double FINER_STEP = 0.03; ///< of the spacing: by how much a grid is made finer where none
                                     ///< of that spacing closes the surface (toes, fingers)
 constexpr int FINER_STEPS = 8;      ///< at most
@@ -27,6 +28,26 @@ struct Grid {
   Vec3 point(int i, int j, int k) const { return origin + cell * Vec3(i, j, k); }
 };
 
+/// Fills `size` corners each way from a corner on, with one value where the middle is far off.
+void fill_block(Grid& g, const Field& f, const std::array<int, 3>& from, int size) {
+  const double reach = FAR_OFF * 0.5 * size * g.cell * std::sqrt(3.0);
+  const Vec3 corner(from[0], from[1], from[2]);
+  const double middle = f(g.origin + g.cell * (corner + 0.5 * size * Vec3::Ones()));
+  const bool far = std::abs(middle) > reach;
+  if (!far && size == BLOCK) {
+    for (int part = 0; part < 8; ++part)
+      fill_block(g, f,
+                 {from[0] + PART * (part & 1), from[1] + PART * (part >> 1 & 1),
+                  from[2] + PART * (part >> 2)},
+                 PART);
+    return;
+  }
+  for (int k = from[2]; k < from[2] + size; ++k)
+    for (int j = from[1]; j < from[1] + size; ++j)
+      for (int i = from[0]; i < from[0] + size; ++i)
+        g.value[g.at(i, j, k)] = static_cast<float>(far ? middle : f(g.point(i, j, k)));
+}
+
 Grid sample(const Field& f, const Box3& box, double cell, const Vec3& shift) {
   Grid g;
   g.cell = cell;
@@ -38,18 +59,10 @@ Grid sample(const Field& f, const Box3& box, double cell, const Vec3& shift) {
   g.nz = corners(box.size().z());
   g.origin = box.low - shift * cell;
   g.value.assign(static_cast<std::size_t>(g.nx) * g.ny * g.nz, 1.0f);
-  const double reach = FAR_OFF * 0.5 * BLOCK * cell * std::sqrt(3.0);
   for (int k = 0; k + 1 < g.nz; k += BLOCK)
     for (int j = 0; j + 1 < g.ny; j += BLOCK)
-      for (int i = 0; i + 1 < g.nx; i += BLOCK) {
-        const double middle =
-            f(g.origin + cell * Vec3(i + 0.5 * BLOCK, j + 0.5 * BLOCK, k + 0.5 * BLOCK));
-        const bool far = std::abs(middle) > reach;
-        for (int c = k; c < std::min(k + BLOCK, g.nz); ++c)
-          for (int b = j; b < std::min(j + BLOCK, g.ny); ++b)
-            for (int a = i; a < std::min(i + BLOCK, g.nx); ++a)
-              g.value[g.at(a, b, c)] = static_cast<float>(far ? middle : f(g.point(a, b, c)));
-      }
+      for (int i = 0; i + 1 < g.nx; i += BLOCK)
+        fill_block(g, f, {i, j, k}, BLOCK);
   return g;
 }
 

@@ -74,11 +74,12 @@ Section2 field_section(const Field& f, const Vec3& center, const Vec3& u, const 
 
 Section2 mesh_section(const TriangleMesh& mesh, const Vec3& point, const Vec3& normal,
                       const std::function<bool(const Triangle&)>& keep) {
+  std::vector<double> height(mesh.positions.size()); // over the plane
+  for (std::size_t v = 0; v < height.size(); ++v)
+    height[v] = (mesh.positions[v] - point).dot(normal);
   std::vector<Vec3> points;
   for (const Triangle& t : mesh.triangles) {
-    double d[3];
-    for (int k = 0; k < 3; ++k)
-      d[k] = (mesh.positions[t[k]] - point).dot(normal);
+    const double d[3] = {height[t[0]], height[t[1]], height[t[2]]};
     if ((d[0] > 0) == (d[1] > 0) && (d[1] > 0) == (d[2] > 0))
       continue;
     if (!keep(t))

@@ -71,7 +71,7 @@ void add_box(TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
 } // namespace
 
 TEST(MeasureScan, a_missing_hand_is_told) {
-  const samples::MadeMannequin& made = test::mannequin("f-165-a");
+  const test::MadeFigure& made = test::mannequin("f-165-a");
   auto reported = [](const Body& body) {
     int n = 0;
     for (const Finding& f : body.scan.findings)
@@ -129,7 +129,7 @@ TEST(MeasureScan, a_girth_is_no_surer_than_its_rule_however_little_it_moves) {
 
 TEST(MeasureScan, finds_a_mannequins_points_where_they_were_built) {
   for (const char* name : {"f-165-a", "m-185-t", "f-165-plus", "m-170-stout"}) {
-    const samples::MadeMannequin& made = test::mannequin(name);
+    const test::MadeFigure& made = test::mannequin(name);
     const MeasuredScan measured = measure(made.mesh);
     EXPECT_TRUE(measured.missing.empty());
     // joints and cervicale are corrected by what bodies of another make say, who have them up to 2
@@ -154,7 +154,7 @@ TEST(MeasureScan, finds_a_mannequins_points_where_they_were_built) {
 
 TEST(MeasureScan, labels_at_least_95_of_100_vertices_as_they_were_built) {
   for (const char* name : {"f-165-a", "m-178-a", "f-172-t"}) {
-    const samples::MadeMannequin& made = test::mannequin(name);
+    const test::MadeFigure& made = test::mannequin(name);
     const MeasuredScan measured = measure(made.mesh);
     ASSERT_EQ(measured.vertex_part.size(), made.parts.size());
     int agree = 0;

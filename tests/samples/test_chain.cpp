@@ -9,6 +9,7 @@
 #include <sloper/pattern/mesh/folds.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
+#include <support/made_figure.hpp>
 using namespace sloper;
 using namespace sloper::samples;
 
@@ -49,7 +50,7 @@ TEST(shirt, has_a_collar_that_is_turned_over_on_its_seam_where_it_is_asked_for) 
 }
 
 TEST_P(EveryScan, has_its_main_landmarks_found_within_15_mm) {
-  const MadeMannequin made = make_mannequin(preset(GetParam()));
+  const test::MadeFigure& made = test::mannequin(GetParam());
   const body::MeasuredScan found =
       body::measure_scan(made.mesh, GetParam(), "", {}, silent_reporter());
   const Mat4 back = found.body.scan_to_body.inverse();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <mannequin.hpp>
 #include <measures.hpp>
+#include <support/made_figure.hpp>
 using namespace sloper;
 using namespace sloper::samples;
 
@@ -158,7 +159,7 @@ TEST(draft, faults_are_found) {
 }
 
 TEST(measures, a_mannequin_gives_its_own_measures) {
-  const Measures m = measures_from_body(make_mannequin(preset("f-165-a")).truth, "f-165-a");
+  const Measures m = measures_from_body(test::made_figure("f-165-a").truth, "f-165-a");
   EXPECT_NEAR(m.stature, 1.65, 1e-3);
   EXPECT_NEAR(m.waist, 0.74, 0.02);
   EXPECT_NEAR(m.bust, 0.93, 0.03);

@@ -7,20 +7,13 @@
 #include <sloper/base/error.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/io/obj.hpp>
+#include <support/made_figure.hpp>
 using namespace sloper;
 using namespace sloper::samples;
 
 namespace {
 
-const MadeMannequin& made(const std::string& name) {
-  static std::map<std::string, MadeMannequin> kept;
-  auto found = kept.find(name);
-  if (found == kept.end())
-    found = kept.emplace(name, make_mannequin(preset(name))).first;
-  return found->second;
-}
-
-Vec3 landmark(const MadeMannequin& m, const std::string& name) {
+Vec3 landmark(const test::MadeFigure& m, const std::string& name) {
   const io::Json& p = m.truth["landmarks"][name]["p"];
   return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
 }
@@ -45,7 +38,7 @@ double volume(const TriangleMesh& mesh) {
 class EveryFigure : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryFigure, is_one_closed_outward_manifold_of_its_stature) {
-  const MadeMannequin& m = made(GetParam());
+  const test::MadeFigure& m = test::mannequin(GetParam());
   EXPECT_TRUE(is_closed_manifold(m.mesh));
   const std::vector<int> component =
       connected_components(m.mesh.positions.size(), m.mesh.triangles);
@@ -62,7 +55,7 @@ TEST_P(EveryFigure, is_one_closed_outward_manifold_of_its_stature) {
 }
 
 TEST_P(EveryFigure, has_the_girths_that_it_was_asked_for) {
-  const MadeMannequin& m = made(GetParam());
+  const test::MadeFigure& m = test::mannequin(GetParam());
   const std::map<std::string, double> want = default_girths(preset(GetParam()));
   const auto check = [](const char* name, double got, double asked, double off = 0.03) {
     EXPECT_NEAR(got / asked, 1, off) << name;
@@ -79,7 +72,7 @@ TEST_P(EveryFigure, has_the_girths_that_it_was_asked_for) {
 }
 
 TEST_P(EveryFigure, has_skin_landmarks_on_the_skin_and_joints_inside) {
-  const MadeMannequin& m = made(GetParam());
+  const test::MadeFigure& m = test::mannequin(GetParam());
   for (const char* name :
        {"head_tip", "hand_tip_l", "hand_tip_r", "foot_tip_l", "heel_l", "crotch", "axilla_l",
         "neck_back", "neck_front", "neck_side_l", "acromion_l", "acromion_r", "olecranon_l",
@@ -91,7 +84,7 @@ TEST_P(EveryFigure, has_skin_landmarks_on_the_skin_and_joints_inside) {
 }
 
 TEST_P(EveryFigure, has_its_landmarks_in_anatomical_order) {
-  const MadeMannequin& m = made(GetParam());
+  const test::MadeFigure& m = test::mannequin(GetParam());
   const auto y = [&](const char* name) { return landmark(m, name).y(); };
   const char* down[] = {"head_tip",   "neck_back", "neck_front", "axilla_l", "omphalion",
                         "hip_center", "crotch",    "knee_l",     "ankle_l"};
@@ -106,13 +99,13 @@ TEST_P(EveryFigure, has_its_landmarks_in_anatomical_order) {
 }
 
 TEST_P(EveryFigure, stands_with_its_arms_at_the_angle_asked_for) {
-  const MadeMannequin& m = made(GetParam());
+  const test::MadeFigure& m = test::mannequin(GetParam());
   const Vec3 arm = landmark(m, "elbow_l") - landmark(m, "shoulder_joint_l");
   EXPECT_NEAR(std::atan2(arm.x(), -arm.y()) * 180 / 3.14159265, preset(GetParam()).arm_deg, 1);
 }
 
 TEST_P(EveryFigure, labels_every_vertex_with_a_part_and_both_sides_alike) {
-  const MadeMannequin& m = made(GetParam());
+  const test::MadeFigure& m = test::mannequin(GetParam());
   std::array<int, 6> count{};
   for (unsigned char p : m.parts) {
     ASSERT_LT(p, 6);

@@ -1,23 +1,14 @@
 #pragma once
 /// Scans for the tests: mannequins of our own, and what users do to scans.
 #include <Eigen/Geometry>
-#include <mannequin.hpp>
 #include <sloper/base/random.hpp>
 #include <sloper/body/measure_scan.hpp>
+#include <support/made_figure.hpp>
 
 #include <cmath>
 #include <set>
 
 namespace sloper::test {
-
-/// Made once each: making one takes a while.
-inline const samples::MadeMannequin& mannequin(const std::string& name) {
-  static std::map<std::string, samples::MadeMannequin> made;
-  auto it = made.find(name);
-  if (it == made.end())
-    it = made.emplace(name, samples::make_mannequin(samples::preset(name))).first;
-  return it->second;
-}
 
 /// Without the runs that measure the spread, unless asked for.
 inline body::MeasuredScan measure(const TriangleMesh& scan, body::ScanOptions options = {}) {

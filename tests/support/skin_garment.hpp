@@ -2,9 +2,9 @@
 /// Garments made for tests from a body's own skin: the faces of some parts between two heights,
 /// held off by a gap. They need no drape, fit exactly and are smooth, so what binding and fitting
 /// say of them is known.
-#include <mannequin.hpp>
 #include <sloper/body/measure_scan.hpp>
 #include <sloper/garment/garment.hpp>
+#include <support/made_figure.hpp>
 
 #include <cmath>
 #include <map>
@@ -19,7 +19,9 @@ inline body::Body measured(samples::Mannequin shape) {
       .body;
 }
 inline body::Body measured(const std::string& preset) {
-  return measured(samples::preset(preset));
+  return body::measure_scan(test::made_figure(preset, test::FigureEdges::COARSE).mesh, "figure.obj",
+                            "", {}, silent_reporter())
+      .body;
 }
 
 /// One panel over some faces; rest lengths are those of `position` times (1 - strain).

@@ -10,7 +10,7 @@ using namespace sloper::body;
 namespace {
 
 /// What stands above a height, with the hands and arms that hang lower where they are wanted.
-TriangleMesh above(const samples::MadeMannequin& figure, double height, bool keeps_arms) {
+TriangleMesh above(const test::MadeFigure& figure, double height, bool keeps_arms) {
   std::vector<int> number(figure.mesh.positions.size(), -1);
   TriangleMesh torso;
   for (std::size_t v = 0; v < number.size(); ++v) {
@@ -46,7 +46,7 @@ TEST(TorsoOnly, without_the_option_is_refused_and_the_option_is_named) {
 
 TEST(TorsoOnly, shows_head_neck_arms_and_chest_where_they_are_and_no_legs) {
   for (const char* name : {"f-165-a", "m-185-t"}) {
-    const samples::MadeMannequin& figure = test::mannequin(name);
+    const test::MadeFigure& figure = test::mannequin(name);
     const Body whole = test::measure(figure.mesh).body;
     const double cut = test::in_scan(whole, "crotch").y() + 0.04;
     for (const double degrees : {75.0}) {
@@ -78,7 +78,7 @@ TEST(TorsoOnly, shows_head_neck_arms_and_chest_where_they_are_and_no_legs) {
 }
 
 TEST(TorsoOnly, with_thighs_shows_the_crotch) {
-  const samples::MadeMannequin& figure = test::mannequin("f-165-a");
+  const test::MadeFigure& figure = test::mannequin("f-165-a");
   const Body whole = test::measure(figure.mesh).body;
   const Vec3 crotch = test::in_scan(whole, "crotch");
   const Body body = test::measure(above(figure, crotch.y() - 0.12, true), torso_only()).body;
@@ -95,7 +95,7 @@ TEST(TorsoOnly, of_a_whole_person_changes_nothing) {
 
 TEST(TorsoOnly, what_has_no_head_is_refused) {
   TriangleMesh legs;
-  const samples::MadeMannequin& figure = test::mannequin("f-165-a");
+  const test::MadeFigure& figure = test::mannequin("f-165-a");
   for (const Vec3& p : figure.mesh.positions)
     if (p.y() < 0.7)
       legs.positions.push_back(p);

@@ -41,7 +41,7 @@ TriangleMesh pressed(TriangleMesh mesh, double low, double high, double slope) {
 } // namespace
 
 TEST(FlatBelly, is_given_its_middle_and_told) {
-  const samples::MadeMannequin& made = test::mannequin("m-178-a");
+  const test::MadeFigure& made = test::mannequin("m-178-a");
   const double low = 0.93, high = 1.03;
   Vec3 at[2];
   for (int lean = 0; lean < 2; ++lean) {
@@ -106,7 +106,7 @@ TriangleMesh with_high_belly(TriangleMesh mesh, double bust, double depth) {
 /// Of 616 sides of fresh bodies 18 had the chest's foremost place off by more than 40 mm: a
 /// millimetre decides between belly and chest, here 5 cm apart.
 TEST(Prominence, lies_between_a_belly_and_a_chest_that_stand_out_as_far) {
-  const samples::MadeMannequin& made = test::mannequin("m-178-a");
+  const test::MadeFigure& made = test::mannequin("m-178-a");
   const double bust = test::in_scan(test::measure(made.mesh).body, "bust_point_l").y();
   std::vector<double> heights;
   double most = 0;
@@ -130,7 +130,7 @@ TEST(Prominence, lies_between_a_belly_and_a_chest_that_stand_out_as_far) {
 /// Of 12 bellies off by more than 40 mm among 280 fresh bodies six were so without a word: the
 /// waist, which is where a belly that runs on into the chest ends, is off by 8 mm.
 TEST(FlatBelly, is_told_of_where_the_waist_decides_between_belly_and_chest) {
-  const samples::MadeMannequin& made = test::mannequin("m-178-a");
+  const test::MadeFigure& made = test::mannequin("m-178-a");
   const Body plain = test::measure(made.mesh).body;
   const double waist = plain.levels.at("waist_semantic").y, belly = waist - 0.11;
   EXPECT_FALSE(is_warned_of(plain, "abdomen_front"));

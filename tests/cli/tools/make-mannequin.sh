@@ -21,6 +21,14 @@ case_a_name_of_another_format_is_refused() {
   run 0 "$program" --preset f-165-a --cell 0.018 -o /dev/null
 }
 
+# A truth document has no mesh beside it: it was taken for one that would be written twice.
+case_figure_and_truth_may_have_one_name() {
+  run 0 "$program" --preset f-165-a --cell 0.018 -o anna.obj --truth anna.json
+  [[ -s anna.obj && -s anna.json ]] || fail "one of them is not written"
+  run 2 "$program" --preset f-165-a --cell 0.018 -o anna.obj --parts anna.obj
+  says "would be written by --parts too"
+}
+
 case_a_girth_that_does_not_come_out_is_told_and_the_figure_is_written() {
   run 4 "$program" --preset f-165-a --cell 0.018 --girth waist=1.6 -o out.obj --truth truth.json
   says "--girth waist=1.6: the figure came out with 1.4"

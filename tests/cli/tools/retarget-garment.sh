@@ -26,14 +26,14 @@ case_what_does_not_fit_ends_with_1_under_a_policy_and_with_4_without() {
 }
 
 # Measures two scans of the shared data, from.json and to.json, and drapes a pattern of theirs on the first: worn.json. Skips without them.
-dress_from_shared() { # FROM TO PATTERN [DRAPE_OPTION...]
+dress_from_shared() { # FROM TO PATTERN [DRAPE_OPTION...]; the caller's `edge` is the mesh's, m
   local shared=${SLOPER_SHARED:-}/data folder=${program%/*} sewing=()
   [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
   local pattern=$shared/patterns/$3
   [[ $pattern != *.dxf ]] || sewing=(--sewing "${pattern%.dxf}.seams.json")
   run 0 "$folder/scan-landmarks" -q -o from.json "$shared/bodies/$1.obj"
   run 0 "$folder/scan-landmarks" -q -o to.json "$shared/bodies/$2.obj"
-  run 0 "$folder/pattern-mesh" -q --body from.json "${sewing[@]}" -o panels.json "$pattern"
+  run 0 "$folder/pattern-mesh" -q ${edge:+--edge-length "$edge"} --body from.json "${sewing[@]}" -o panels.json "$pattern"
   run 0 "$folder/drape" -q --body from.json --panels panels.json "${@:4}" -o worn.json
 }
 
@@ -47,6 +47,7 @@ case_a_shirt_made_over_for_a_body_that_it_is_too_tight_on_is_let_out() {
 
 # The collar is placed in the chin of a body with a shorter neck: what clearing leaves there, the drape brings out.
 case_a_collar_that_is_placed_in_a_chin_is_brought_out() {
+  local edge=0.025
   dress_from_shared plain/body_006 plain/body_004 sewing/dxf/shirt.dxf --accuracy draft --material denim
   run 4 "$program" --accuracy draft --garment worn.json --to to.json --report report.json -o there.json
   says "does not fit"

@@ -9,6 +9,7 @@
 #include <sloper/body/measure_scan.hpp>
 #include <sloper/garment/drape/drape.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
+#include <support/made_figure.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;
@@ -16,7 +17,7 @@ using namespace sloper::garment;
 namespace {
 
 void expect_dressed(const pattern::test::DrawnPattern& drawn) {
-  const samples::MadeMannequin made = samples::make_mannequin(samples::preset("f-165-a"));
+  const test::MadeFigure made = test::made_figure("f-165-a");
   const body::Body body = body::measure_scan(made.mesh, "f-165-a", "", {}, silent_reporter()).body;
   const pattern::Pattern source = drawn.pattern();
   Garment skirt;

@@ -16,6 +16,7 @@
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
+#include <support/made_figure.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;
@@ -104,7 +105,7 @@ enum class CollarLines {
 };
 
 DraftedShirt drafted_shirt(const std::string& figure, CollarLines lines) {
-  const samples::MadeMannequin made = samples::make_mannequin(samples::preset(figure));
+  const test::MadeFigure made = test::made_figure(figure);
   DraftedShirt out;
   out.body = body::measure_scan(made.mesh, "figure", "", {}, silent_reporter()).body;
   pattern::Pattern source =
@@ -177,7 +178,7 @@ TEST(TurnedLeaves, a_collar_turns_over_a_line_of_the_scene_by_way_of_the_coarse_
 TEST(TurnedLeaves, a_collar_with_interfacing_rests_outside_of_the_shirt) {
   // Drafted for the body as measured, its stiff leaf came to rest beneath the fronts, with exit
   // status 0 (tests/cli/tools/drape.sh has that one).
-  const samples::MadeMannequin made = samples::make_mannequin(samples::preset("f-165-a"));
+  const test::MadeFigure made = test::made_figure("f-165-a");
   const body::Body body = body::measure_scan(made.mesh, "figure", "", {}, silent_reporter()).body;
   samples::Draft draft = samples::draft_shirt(samples::measures_from_body(made.truth, "figure"));
   for (samples::DraftPanel& panel : draft.panels)

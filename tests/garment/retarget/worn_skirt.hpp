@@ -12,6 +12,7 @@
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
+#include <support/made_figure.hpp>
 
 namespace sloper::garment {
 
@@ -20,7 +21,7 @@ struct Figure {
   io::Json truth;
 
   explicit Figure(const std::string& preset) {
-    const samples::MadeMannequin made = samples::make_mannequin(samples::preset(preset));
+    const test::MadeFigure made = test::made_figure(preset);
     body = body::measure_scan(made.mesh, preset, "", {}, silent_reporter()).body;
     truth = made.truth;
   }
