@@ -252,8 +252,8 @@ static std::string folder_of(const std::string& path) {
 static void check_outputs(CLI::App& app) {
   for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
     const auto& longs = option->get_lnames();
-    const bool output = is_written(option) ||
-                        std::find(longs.begin(), longs.end(), "output") != longs.end();
+    const bool output =
+        is_written(option) || std::find(longs.begin(), longs.end(), "output") != longs.end();
     if (!output)
       continue;
     for (const std::string& path : option->results()) {

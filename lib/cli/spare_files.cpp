@@ -34,7 +34,7 @@ static bool names_a_document(const std::filesystem::path& path) {
 }
 
 /// The regular files of an option, each with the mesh that a document has beside it.
-template <typename HasMesh>
+template<typename HasMesh>
 static std::vector<std::filesystem::path> files_of(CLI::Option* option, const HasMesh& has_mesh) {
   std::vector<std::filesystem::path> files;
   for (const std::string& path : option->results()) {
