@@ -124,7 +124,7 @@ TEST_P(KilledRun, goes_on_from_any_step_to_the_bytes_of_one_that_was_not_killed)
   std::set<DrapePhase> phases;
   std::size_t tucks = 0, free = 0;
   for (int at = 20; at < undisturbed.steps;
-       at += std::max(5, undisturbed.steps / (tucked || name == "swaying" ? 12 : 4))) {
+       at += std::max(5, undisturbed.steps / (tucked || name == "swaying" ? 6 : 4))) {
     Garment killed = c.garment;
     Killer killer(at);
     drape(killed, &c.body, settings, killer, {.checkpoints = {file("killed.json"), 17}});
