@@ -143,6 +143,12 @@ body::MeasuredScan measure(cli::Tool& tool, const Options& o, const io::Scan& sc
 }
 
 int run(cli::Tool& tool, const Options& o) {
+  const bool is_sized = o.metres_per_unit > 0 || o.stature_m > 0;
+  if (is_sized && o.unit != "auto")
+    tool.reporter().warning({"scan.unit-overruled"_id,
+                             "--unit " + o.unit +
+                                 " is not used: " + (o.stature_m > 0 ? "--stature" : "--scale") +
+                                 " says the size; leave one of them out"});
   body::ScanOptions options;
   options.unit = o.unit;
   options.metres_per_unit = o.metres_per_unit;

@@ -319,7 +319,7 @@ Scene read_scene(const std::vector<std::string>& paths) {
     }
     scene.names.push_back(io::file_name(path));
     for (std::size_t m = before; m < scene.meshes.size(); ++m)
-      scene.meshes[m].name = scene.names.back().substr(0, scene.names.back().find('.'));
+      scene.meshes[m].name = scene.names.back().substr(0, scene.names.back().rfind('.'));
   }
   if (!body.empty() && body != "-" && !scene.body->skin.positions.empty() && !draped.empty()) {
     const std::string skin = body::skin_sha256(body);

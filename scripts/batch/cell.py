@@ -43,7 +43,8 @@ def put_in_place(folder, target):
 
 
 def run(command, timeout_s, folder):
-    """Exit code (or "time out", "signal 9"), last line of stderr, and {wall_s, cpu_s, peak_mb}."""
+    """Exit code (or "time out", "signal 9"), last line of stderr, {wall_s, cpu_s, peak_mb}, and
+    the warnings without the program's name."""
     start = time.monotonic()
     environment = dict(os.environ, LC_ALL="C.UTF-8")
     late = threading.Event()
@@ -78,10 +79,11 @@ def run(command, timeout_s, folder):
         "cpu_s": round(used.ru_utime + used.ru_stime, 3),
         "peak_mb": round(used.ru_maxrss / 1024, 1),
     }
-    message = lines[-1] if lines else ""
-    for path in [folder, *(os.path.dirname(word) for word in command[1:] if word.startswith("/"))]:
-        message = message.replace(path + "/", "")
-    return code, message, cost
+    folders = [folder, *(os.path.dirname(word) for word in command[1:] if word.startswith("/"))]
+    for path in folders:
+        lines = [line.replace(path + "/", "") for line in lines]
+    warnings = [line.split(": warning: ", 1)[1] for line in lines if ": warning: " in line]
+    return code, lines[-1] if lines else "", cost, warnings
 
 
 def refuse_full_disk(code, message):
@@ -121,7 +123,7 @@ def make_body(plan, number):
             "body.json",
             body["scan"],
         ]
-        code, message, _ = run(command, settings["timeout_s"], folder)
+        code, message, _, _ = run(command, settings["timeout_s"], folder)
         refuse_full_disk(code, message)
     planning.write_json(
         os.path.join(folder, "status.json"),
@@ -273,13 +275,15 @@ def make_cell(plan, number):
         "-o",
         "garment.json",
     ]
-    code, message, cost = run(command, settings["timeout_s"], folder)
+    code, message, cost, warnings = run(command, settings["timeout_s"], folder)
     refuse_full_disk(code, message)
     fit, report = optional_json(os.path.join(folder, "fit.json")), optional_json(
         os.path.join(folder, "report.json")
     )
     cause = cause_of(code, fit, report)
     status.update(exit=code, cause=cause, message=message, dressed=cause == "dressed")
+    if status["dressed"]:  # of the others the reason says more
+        status["warnings"] = [text.replace("body.json", cell["scan"]) for text in warnings]
     if fit:
         status.update(
             fits=fit["fits"],

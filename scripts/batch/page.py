@@ -250,10 +250,17 @@ def failed_texts(figures):
     return lines + ([f"failed: {counted(more, 'cell')} more; see cells.csv"] if more else [])
 
 
+def why_text(status):
+    """The reason of a verdict and what the program warned of besides, or its last words."""
+    reason = status.get("reason") or ("" if status["dressed"] else status.get("message", ""))
+    texts = [reason] if reason else []
+    return "; ".join(texts + status.get("warnings", []))
+
+
 def cell_line(status):
     """A row of cells.csv: which folder holds which cell."""
     words = [status[key] for key in ("name", "garment", "size", "scan", "cause")]
-    return words + [f"cells/{status['place']}", status.get("reason") or status.get("message", "")]
+    return words + [f"cells/{status['place']}", why_text(status)]
 
 
 def worn_text(figures):
@@ -294,7 +301,7 @@ CELLS_HEAD = '<div class=wide><table class=sorts><thead><tr><th>garment<th>size<
 
 
 def why_html(s):
-    why = html.escape(s.get("reason") or (s.get("message", "") if not s["dressed"] else ""))
+    why = html.escape(why_text(s))
     if css_class(s["cause"]) == "bad":
         return why + f' <a href="cells/{s["place"]}/failure.repro.tgz">failure bundle</a>'
     return why + (f' <a href="cells/{s["place"]}/fit.html">fit</a>' if "margin_cm" in s else "")

@@ -8,6 +8,7 @@
 #include <sloper/base/error.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/garment/materials.hpp>
+#include <sloper/garment/simulate/roll_line_states.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,10 @@ constexpr double CERTAIN_SLIP = 1.1; // of what the policy bears: what has sunk 
 constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen
                                        // to creep down by a quarter until it was at rest
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
-constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
+/// Why the free edge of a turned collar has no row.
+constexpr const char* TURNED_LEAF =
+    "it lies on cloth that is turned over, and does not go round the neck";
+constexpr double NOT_AT_REST = 0.01; // m that a drape which did not come to rest may still move
 
 /// How large a length is, whatever its sign.
 std::string centimetres(double m) {
@@ -290,6 +294,27 @@ void add_redrape_spread(const Redrapes& redrapes, FitReport& report) {
       hem.uncertainty_m = std::hypot(hem.uncertainty_m, found->second);
 }
 
+/// Whether the greater part of the neck's edge is that of a collar or lapel that is turned over its
+/// roll line: its length is that of the leaf.
+bool lies_on_turned_leaf(const Garment& garment, const FitHem& hem,
+                         const std::vector<RollLineState>& rolled) {
+  if (hem.name != "neck" || rolled.empty())
+    return false;
+  std::set<std::string> turned;
+  for (const RollLineState& line : rolled)
+    if (line.is_turned())
+      turned.insert(line.panel);
+  std::vector<char> on_leaf(garment.position.size(), 0);
+  for (std::size_t v = 0; v < garment.panels.ids.size(); ++v)
+    if (turned.count(garment.panels.panels[garment.panels.ids[v].panel].name))
+      on_leaf[garment.particle_of[v]] = 1;
+  const auto on_both_ends = [&](const std::array<int, 2>& edge) {
+    return on_leaf[edge[0]] && on_leaf[edge[1]];
+  };
+  return 2 * std::count_if(hem.edges.begin(), hem.edges.end(), on_both_ends) >
+         std::ssize(hem.edges);
+}
+
 } // namespace
 
 FitReport fit_garment(const Garment& garment, const body::Body& body,
@@ -350,9 +375,15 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
   report.lines = fit_lines(garment, body);
   report.lengths =
       fit_lengths(report.lines.hems, garment.bind, history.source_bind, body, report.convergence_m);
-  for (const FitHem& hem : report.lines.hems)
+  const std::vector<RollLineState> rolled = roll_line_states(garment);
+  for (const FitHem& hem : report.lines.hems) {
+    if (lies_on_turned_leaf(garment, hem, rolled)) {
+      report.left_out.emplace_back(hem.name + " edge", TURNED_LEAF);
+      continue;
+    }
     add(measure_edge(cloth, body, hem, report.convergence_m, why, history.source),
         hem.name + " edge");
+  }
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name))
       report.left_out.emplace_back(name, "the body document does not say where it was measured");

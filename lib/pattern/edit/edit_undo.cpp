@@ -295,6 +295,8 @@ io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::s
   io::Json out = io::new_document("edits", 1, tool);
   out["length_unit"] = json.at("length_unit");
   Pattern pattern = before;
+  Pattern probe = before;
+  apply_edits(probe, json, file); // so that a fault is named by its place in the file
   io::Json one = json;
   one["edits"] = io::Json::array();
   apply_edits(pattern, one, file); // onto the grid

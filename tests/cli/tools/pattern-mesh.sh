@@ -239,3 +239,15 @@ EOF
   says "nothing is found for them: spare"
   grep -q '"spare"' stdout || fail "the sidecar does not leave it out"
 }
+
+# The undo is made edit by edit, and each was called the first.
+case_a_wrong_edit_is_named_by_its_place_with_undo_too() {
+  cp "$data/skirt.pattern.json" .
+  local panel
+  panel=$(python3 -c 'import json; print(json.load(open("skirt.pattern.json"))["panels"][0]["name"])')
+  echo '{"format": "edits", "version": 1, "length_unit": "cm", "edits": [{"edit": "scale", "x": 1.01, "y": 1.01}, {"edit": "move-edge", "panel": "'"$panel"'", "edge": 0, "by": 1}]}' > e.json
+  run 3 "$program" --edits e.json --write-pattern q.json skirt.pattern.json
+  says "/edits/1/by"
+  run 3 "$program" --edits e.json --undo u.json skirt.pattern.json
+  says "/edits/1/by"
+}

@@ -68,3 +68,11 @@ case_an_obj_without_faces_may_have_been_cut_off_and_warnings_name_the_scan() {
   run 0 "$program" -o out.json points.xyz
   ! grep -q "no faces, and" stderr || fail "a cloud of points needs no faces"
 }
+
+case_a_unit_beside_a_stature_is_not_dropped_in_silence() {
+  cp "$data/a.obj" .
+  run 0 "$program" --unit cm --stature 1.66 -o out.json a.obj
+  says "--unit cm is not used: --stature says the size"
+  run 0 "$program" --stature 1.66 -o out.json a.obj
+  ! grep -q "is not used" stderr || fail "nothing was given twice"
+}

@@ -5,8 +5,10 @@
 #include <measures.hpp>
 #include <sloper/base/progress.hpp>
 #include <sloper/body/measure_scan.hpp>
+#include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/composite.hpp>
 #include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/materials.hpp>
 #include <sloper/garment/scene/scene_folds.hpp>
 #include <sloper/garment/sewing.hpp>
@@ -144,6 +146,16 @@ TEST(TurnedLeaves, a_collar_turns_over_a_line_in_it_on_the_coarse_mesh_already) 
   const DrapeReport report =
       drape(shirt.garment, &shirt.body, preset_settings("draft"), silent_reporter());
   expect_turned(shirt.garment, report);
+  // The fit called the neck 28 cm too wide: it went along the free edge of the leaf.
+  bind_garment(shirt.garment, shirt.body);
+  const collision::BodyCollider skin(shirt.body.skin);
+  const FitReport fit = fit_garment(shirt.garment, shirt.body, skin, standard_fit_policy());
+  for (const FitRow& row : fit.rows)
+    EXPECT_NE(row.name, "neck_edge");
+  const auto is_neck = [](const auto& left_out) { return left_out.first == "neck edge"; };
+  const auto left_out = std::find_if(fit.left_out.begin(), fit.left_out.end(), is_neck);
+  ASSERT_NE(left_out, fit.left_out.end());
+  EXPECT_NE(left_out->second.find("turned over"), std::string::npos) << left_out->second;
 }
 
 TEST(TurnedLeaves, a_collar_that_stands_on_the_coarse_mesh_turns_on_the_given_one_alone) {
