@@ -6,8 +6,10 @@
 #include <sloper/collision/skin_cache.hpp>
 #include <sloper/garment/bind/bind.hpp>
 #include <sloper/garment/drape/drape_job.hpp>
+#include <sloper/garment/drape/judge_faults.hpp>
 #include <sloper/garment/drape/judge_roll_lines.hpp>
 #include <sloper/garment/fit/stretch.hpp>
+#include <sloper/garment/fit/too_small.hpp>
 #include <sloper/garment/garment_json.hpp>
 #include <sloper/garment/inputs.hpp>
 #include <sloper/garment/material_json.hpp>
@@ -86,7 +88,8 @@ std::vector<Message> tight_rings(const garment::Garment& garment) {
 
 /// What a user who reads the report alone has to know of the panels.
 std::vector<Message> faults_of_panels(const garment::Garment& garment) {
-  return found_before(garment, {"placement.too-tight"_id.text(), "pattern.half-sewn"_id.text()});
+  return found_before(garment, {"placement.too-tight"_id.text(), "placement.impossible"_id.text(),
+                                "pattern.half-sewn"_id.text()});
 }
 
 /// What may be the reason, for the end of a sentence.
@@ -133,10 +136,9 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
   }
   if (report.converged)
     return outcome.refused_lines > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
-  tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
-                                                       " after " + std::to_string(report.steps) +
-                                                       " steps; the state reached is in " +
-                                                       o.output + why_not(garment)});
+  Message not_done = garment::not_done(report, o.output);
+  not_done.text += why_not(garment);
+  tool.reporter().warning(not_done);
   return static_cast<int>(ErrorKind::FAILED);
 }
 
@@ -218,6 +220,9 @@ int resume(cli::Tool& tool, const Options& o) {
     tool.reporter().warning(finding);
   }
   garment::judge_roll_lines(garment, outcome, o.from, findings, tool.reporter());
+  if (o.accept_faults)
+    garment.panels.faults.clear();
+  garment::judge_faults(garment, outcome);
   return write_out(tool, o, garment, under, body, outcome, inputs, findings);
 }
 
@@ -255,6 +260,8 @@ int run(cli::Tool& tool, Options& o) {
     garment.rest_scale = pattern::tape_scales(garment.panels);
   } else
     garment = garment::read_garment(o.from);
+  if (o.accept_faults)
+    garment.panels.faults.clear();
   io::Json inputs = io::Json::array({garment::input_entry(source)});
   garment::apply_scene(scene, garment);
   if (!o.material.empty())
@@ -302,7 +309,10 @@ int run(cli::Tool& tool, Options& o) {
   if (!o.untangle_only) {
     garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before,
                            findings, tool.reporter());
+    garment::judge_too_small(garment, body, outcome.report, {source, o.body, skin, !o.from.empty()},
+                             findings, tool.reporter());
     garment::judge_roll_lines(garment, outcome, source, findings, tool.reporter());
+    garment::judge_faults(garment, outcome);
   }
   return write_out(tool, o, garment, layers, body, outcome, inputs, findings);
 }

@@ -15,7 +15,7 @@ struct Options {
   std::vector<std::string> set, over, over_output, jitter;
   int checkpoint_steps = 100;
   double max_seconds = 0, max_error_mm = 0, motion_fps = 0;
-  bool untangle_only = false;
+  bool untangle_only = false, accept_faults = false;
   int redrapes = 0, seed = 1;
 };
 
@@ -85,6 +85,9 @@ inline void add_options(cli::Tool& tool, Options& o) {
   tool.flag("--untangle-only", o.untangle_only,
             "with --from: only draw crossing cloth apart and out of the body, and drape nothing; "
             "exit 4 where crossings remain");
+  tool.flag("--accept-faults", o.accept_faults,
+            "panels on which pattern-mesh ended with exit status 4 are meant as they are: they "
+            "do not fail the drape, nor any later one of this garment");
   tool.option("--redrapes", o.redrapes,
               "drape so many times from starts that differ as a person's hands do; the drape "
               "written is the one nearest to all others, with the spread of each place")

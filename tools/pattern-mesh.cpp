@@ -105,6 +105,20 @@ std::optional<Message> tell_faults(cli::Tool& tool, const pattern::Pattern& sour
   return half_sewn;
 }
 
+/// What is half sewn becomes a fault of the mesh.
+/// @param apart  panels that nothing is found for
+void add_unsewn(const std::vector<std::string>& apart, pattern::PanelMesh& mesh) {
+  const std::string half_sewn = "pattern.half-sewn"_id.string();
+  for (const Message& finding : mesh.findings)
+    if (finding.id == half_sewn)
+      mesh.faults.push_back(finding.text);
+  if (!mesh.faults.empty())
+    return;
+  const std::string fact = "nothing is found that " + apart.front() + " is sewn to";
+  mesh.findings.push_back({"pattern.half-sewn"_id, fact});
+  mesh.faults.push_back(fact);
+}
+
 /// The pattern as read (and edited), in the format of the file name's ending.
 void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::string& path) {
   const auto ends = [&](const std::string& tail) {
@@ -331,11 +345,17 @@ int run(cli::Tool& tool, const Options& o) {
       tool.reporter().warning(mesh.findings.back());
     }
     impossible = r.impossible;
-    for (const std::string& fact : impossible)
+    for (const std::string& fact : impossible) {
       mesh.findings.push_back({"placement.impossible"_id, fact});
+      mesh.faults.push_back(fact);
+    }
     tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) +
                          ", largest " + pattern::centimetres(r.seam_gap_max));
   }
+  // A drawing that states no seams: they were guessed or answered, and one was missed.
+  const bool missed = half_sewn && (guessed || !o.sewing.empty());
+  if (missed || !apart.empty())
+    add_unsewn(apart, mesh);
   for (const Message& finding : mesh.findings)
     tool.reporter().info(finding.text);
   pattern::write_panel_mesh(o.output, mesh, tool.name());
@@ -350,8 +370,7 @@ int run(cli::Tool& tool, const Options& o) {
                 "nothing is found that " + apart.front() + " is sewn to",
                 "leave it out with --without, or name its seam in --sewing; " + o.output +
                     " is written as it is");
-  // A drawing that states no seams: they were guessed or answered, and one was missed.
-  if (half_sewn && (guessed || !o.sewing.empty()))
+  if (missed)
     throw Error(ErrorKind::FAILED, "pattern.half-sewn"_id, o.pattern, "", half_sewn->text,
                 "name the seam in --sewing, or cut the piece where a line of its drawing ends; " +
                     o.output + " is written as it is");

@@ -5,6 +5,7 @@
 #include <sloper/cli/run_tool.hpp>
 #include <sloper/collision/skin_cache.hpp>
 #include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/judge_faults.hpp>
 #include <sloper/garment/drape/judge_roll_lines.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/fit/stretch.hpp>
@@ -280,10 +281,7 @@ int run(cli::Tool& tool, Options o) {
   if (!o.report.empty())
     write_report(o, {outcome, rolls, put_on, dressed, sizes, inputs}, tool.name());
   if (outcome.was_draped() && !report.converged && report.misfit == garment::Misfit::NONE)
-    tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
-                                                         " after " + std::to_string(report.steps) +
-                                                         " steps; the state reached is in " +
-                                                         o.output});
+    tool.reporter().warning(garment::not_done(report, o.output));
   if (!fit.fits && !o.no_drape)
     return refuse(tool, o, fit);
   if (!o.no_drape)

@@ -6,6 +6,7 @@
 #include <sloper/base/version.hpp>
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 #include <sloper/io/obj.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
 #include <sloper/pattern/write/export_pattern.hpp>
@@ -362,6 +363,8 @@ Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::s
   read_ids(root.at("vertex_ids"), garment.panels);
   read_seams(root.at("seams"), garment.panels);
   garment.panels.findings = io::read_findings(root);
+  if (root.has("faults"))
+    garment.panels.faults = io::read_strings(root.at("faults"));
   if (root.has("pattern"))
     garment.panels.source = std::make_shared<pattern::Pattern>(
         pattern::read_pattern_json(root.at("pattern").json(), root.file()));
@@ -427,6 +430,8 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
   for (const pattern::MeshSeam& seam : garment.panels.seams)
     document["seams"].push_back(seam_json(seam));
   io::put_findings(document, garment.panels.findings);
+  if (!garment.panels.faults.empty())
+    document["faults"] = garment.panels.faults;
   if (garment.panels.source)
     document["pattern"] =
         pattern::pattern_json(*garment.panels.source, tool, pattern::PatternNumbers::EXACT);

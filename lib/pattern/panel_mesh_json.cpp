@@ -1,6 +1,7 @@
 #include <sloper/base/version.hpp>
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 #include <sloper/io/obj.hpp>
 #include <sloper/pattern/panel_mesh_json.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
@@ -95,6 +96,8 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   }
   doc["seams"] = seams;
   io::put_findings(doc, mesh.findings);
+  if (!mesh.faults.empty())
+    doc["faults"] = mesh.faults;
   if (mesh.source)
     doc["pattern"] = pattern_json(*mesh.source, tool, PatternNumbers::EXACT);
   const std::string bytes = io::obj_text(obj, generator_stamp(tool));
@@ -179,6 +182,8 @@ PanelMesh read_panel_mesh(const std::string& path) {
     mesh.seams.push_back(std::move(s));
   }
   mesh.findings = io::read_findings(doc);
+  if (doc.has("faults"))
+    mesh.faults = io::read_strings(doc.at("faults"));
   if (doc.has("pattern"))
     mesh.source = std::make_shared<Pattern>(read_pattern_json(doc.at("pattern").json(), path));
   return mesh;

@@ -124,6 +124,11 @@ bool says_back(const Words& words) {
                             "espalda", "traser", "dietro", "yoke"}) ||
          any_of(words, {"b", "cb", "dos"}) || any_ends(words, {"bk"});
 }
+bool say_sleeve_halves(const Words& one, const Words& other) {
+  return says_sleeve(one) && says_sleeve(other) &&
+         ((name_suggests_front(one) && says_back(other)) ||
+          (says_back(one) && name_suggests_front(other)));
+}
 bool says_left(const Words& words) {
   return any_of(words, {"l", "left", "lft", "links", "linke", "linker", "gauche", "izquierda"});
 }

@@ -33,6 +33,8 @@ bool says_legs(const Words& words); ///< trousers, their parts and bands
 bool says_skirt(const Words& words);
 bool name_suggests_front(const Words& words);
 bool says_back(const Words& words);
+/// Whether they are the front and the back piece of a sleeve.
+bool say_sleeve_halves(const Words& one, const Words& other);
 bool says_left(const Words& words);
 bool says_right(const Words& words);
 bool says_anything(const Words& words); ///< of where a piece goes, other than left or right

@@ -69,6 +69,9 @@ struct PanelMesh {
   std::vector<MeshSeam> seams; ///< stitches are the pairs (a[i], b[i]) of those that are not open
   /// Facts that a user should know: merged edges, small angles, length mismatches.
   std::vector<Message> findings;
+  /// Those of the findings for which the mesh is no garment that can be meant, their texts: what a
+  /// drape of it makes is no result, unless the user accepts it.
+  std::vector<std::string> faults;
   /// Warnings of reading: a mesh that is not the one written. Not part of the document.
   std::vector<Message> file_findings;
   /// The pattern that was meshed, so that edits can be followed; null where unknown.

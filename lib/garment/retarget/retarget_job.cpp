@@ -2,6 +2,7 @@
 
 #include <garment/retarget/keep_ease.hpp>
 #include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/judge_faults.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/retarget/drape_retargeted.hpp>
@@ -42,6 +43,7 @@ public:
     if (m_job.mode == RetargetMode::KEEP_FIT)
       m_out.changed_ease = changed_ease_text(m_out.fit);
     refuse_what_is_stuck();
+    fail_where_at_fault(garment(), m_out.report);
     return std::move(m_out);
   }
 

@@ -143,6 +143,7 @@ std::vector<Message> mesh_along_folds(Garment& garment, const body::Body* body,
     mesh.placed = interpolate(given, given.placed, mesh);
   take_over(given, mesh);
   mesh.findings = given.findings;
+  mesh.faults = given.faults;
   keep_ids(given, mesh);
   garment.panels = std::move(mesh);
   if (!garment.rest_scale.empty())

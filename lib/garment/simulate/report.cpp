@@ -77,6 +77,8 @@ std::string stop_text(const DrapeReport& report) {
     return unclean_frames_text(report.quality["motion"]);
   case StopReason::AT_REST_STRETCHED: return "at rest, but stretched by " + report.stop_detail;
   case StopReason::AT_REST_UNTURNED: return "at rest, but " + report.stop_detail;
+  case StopReason::AT_REST_AT_FAULT:
+    return "at rest, but its panels are at fault: " + report.stop_detail;
   case StopReason::STEP_LIMIT: return "step limit";
   case StopReason::TIME_LIMIT: return time_limit_text(report);
   case StopReason::INTERRUPTED: return "stopped by the user";

@@ -73,6 +73,7 @@ private:
   bool meets_trunk(const PanelGroup& group, const std::vector<Triangle>& triangles,
                    const std::vector<int>& through) const;
   void measure_gaps(PlacementReport& report) const;
+  double share_below_floor(const PanelInfo& panel) const;
   void find_impossible(PlacementReport& report) const;
   /// Names panels of which neither name nor hint nor seams tell where they go, in the findings;
   /// their number.

@@ -5,6 +5,7 @@
 #include <pattern/seams/rim_seams.hpp>
 #include <pattern/seams/seam_assembly.hpp>
 #include <pattern/seams/seam_order.hpp>
+#include <pattern/seams/sleeve_halves.hpp>
 #include <pattern/seams/whole_garment.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/io/json.hpp>
@@ -305,6 +306,7 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
     drop_bags(pattern, guesses, continued);
     guesses = with_rim_seams(pattern, std::move(guesses));
     close_slivers(pattern, guesses);
+    offer_sleeve_halves(pattern, guesses);
     return guesses;
   };
   auto best = std::make_unique<Inference>(pattern, all);

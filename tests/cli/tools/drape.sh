@@ -451,3 +451,38 @@ case_a_time_limit_below_the_time_of_sewing_says_so() {
   run 4 "$program" --body a.body.json --panels panels.json --accuracy standard --max-seconds 0.001 -o out.json
   says "not done: time limit of 0.001 s, before the garment was sewn"
 }
+
+# Half a sleeve hung from a T-shirt whose seams were guessed: pattern-mesh ended with 4, the drape of it with 0.
+case_panels_at_fault_fail_the_drape_unless_they_are_accepted() {
+  python3 - << 'EOF'
+import json
+panels = json.load(open("panels.json"))
+panels["faults"] = ["front_l: side: is open over 20 cm"]
+panels["findings"] = panels["findings"] + panels["faults"]
+panels["finding_ids"] = panels.get("finding_ids", []) + ["pattern.half-sewn"]
+json.dump(panels, open("faulty.json", "w"))
+EOF
+  run 4 "$program" -v --body a.body.json --panels faulty.json --accuracy draft --report r.json -o out.json
+  says "its panels are at fault: front_l: side: is open over 20 cm"
+  says "drape.panels-at-fault"
+  grep -q '"converged": false' out.json || fail "the garment is not marked"
+  grep -q '"stop_reason": "at rest, but its panels are at fault' r.json || fail "the report does not say so"
+  run 4 "$program" -q --body a.body.json --from out.json --accuracy draft -o again.json
+  run 4 "${program%/*}/retarget-garment" --garment out.json --to a.body.json --accuracy draft -o moved.json
+  says "its panels are at fault"
+  run 0 "$program" -q --body a.body.json --from out.json --accuracy draft --accept-faults -o taken.json
+  grep -q '"converged": true' taken.json || fail "not accepted"
+  run 0 "$program" -q --body a.body.json --from taken.json --accuracy draft -o later.json
+}
+
+# Leggings in the default fabric, which is woven: 367 faces through the body, and not a word of the fabric.
+case_cloth_that_is_too_small_for_its_fabric_is_told_where_it_does_not_rest() {
+  run 0 "${program%/*}/../samples/make-pattern" skirt --body a.body.json -o skirt.json
+  echo '{"format": "edits", "version": 1, "length_unit": "cm", "edits": [{"edit": "scale", "x": 0.72, "y": 1}]}' > small.json
+  run 0 "${program%/*}/pattern-mesh" -q --edge-length 0.05 --edits small.json --body a.body.json -o small.panels.json skirt.json
+  run 4 "$program" -v --body a.body.json --panels small.panels.json --accuracy draft --set max_steps=200 --report r.json -o out.json
+  says "drape.cloth-too-small"
+  says "wider than the cloth, which closes only stretched by"
+  says "jersey"
+  grep -q '"drape.cloth-too-small"' r.json || fail "the report does not say so"
+}

@@ -122,6 +122,12 @@ EOF
   run 4 "$program" --edge-length 0.05 --sewing seams.json -o answered.json drawn.dxf
   says "is one sewn to the other?"
   [[ -s answered.json ]] || fail "not written"
+  python3 - << 'EOF' || fail "the mesh does not bear its fault"
+import json
+mesh, sound = (json.load(open(name + ".json")) for name in ("answered", "out"))
+assert mesh["faults"] and set(mesh["faults"]) <= set(mesh["findings"]), mesh["findings"]
+assert "faults" not in sound
+EOF
 }
 
 # A roll line of the pattern 9 mm from the seam of a collar: with edges of 30 mm it was left out, and the collar folded elsewhere.

@@ -289,6 +289,24 @@ std::string outline_text(const std::string& name,
   return R"({"name": ")" + name + R"(", "outline": [)" + outline + "]}";
 }
 
+TEST(PlacementUnnamed, ASheetThatStartsMostlyBelowTheFloorIsTold) { // 3 by 2 m, alone, by CLO
+  const auto fault = [](double height) -> std::string {
+    const Pattern sheet =
+        own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "t", "panels": [)" +
+            outline_text("Pattern2D_4937", {{"low", {150, 0}},
+                                            {"right", {150, height}},
+                                            {"high", {-150, height}},
+                                            {"left", {-150, 0}}}) +
+            R"(], "seams": []})");
+    PanelMesh mesh = mesh_pattern(sheet, 0.05, "t");
+    const PlacementReport report = place_panels(sheet, stick_body(25, 1), mesh);
+    return report.impossible.empty() ? "" : report.impossible.front();
+  };
+  EXPECT_NE(fault(260).find("of its area below the floor, down to -"), std::string::npos)
+      << fault(260);
+  EXPECT_EQ(fault(60), "") << "a stole";
+}
+
 TEST(PlacementUnnamed, AFlounceAtASleeveLiesAlongTheArmThoughItsSidesLeanFarOut) {
   const std::vector<std::pair<const char*, Vec2>>
       trunk = {{"hem", {25, 0}},        {"side_l", {25, 40}}, {"arm_l", {20, 60}},

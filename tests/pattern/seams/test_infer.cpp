@@ -178,6 +178,28 @@ TEST(Inference, HalvesOfSleevesAreNotSewnToThoseOfTheOtherArm) {
   }
 }
 
+TEST(Inference, TheSeamOverTheArmIsOfferedThoughTheBackOfTheSleeveReachesOverTheShoulder) {
+  // From the hem up: sides of 23 and of 8.6 cm in both. The back goes on straight, 9 cm farther.
+  const std::vector<Vec2> front = {{0, 0}, {16, 0}, {16, 23}, {9, 14.5}, {-2.5, 8.2}},
+                          back = {{0, 0},  {20, 0},  {22.5, 8.2}, {14, 16},
+                                  {4, 27}, {-2, 32}, {0, 23}};
+  Pattern p = outlines({{"SLEEVE FR", front}, {"SLEEVE BK", back}});
+  for (int k : {0, 1}) {
+    p.panels.push_back(mirror_image(p.panels[k]));
+    p.panels.back().name += "_mirror";
+  }
+  const auto is = [](const std::vector<pattern::Run>& side, int panel, int edge) {
+    return side.size() == 1 && side[0].panel == panel && side[0].edge == edge;
+  };
+  const auto is_overarm = [&](const SeamGuess& g) {
+    return (is(g.seam.a, 0, 1) && is(g.seam.b, 1, 6)) || (is(g.seam.a, 1, 6) && is(g.seam.b, 0, 1));
+  };
+  int offered = 0;
+  for (const SeamGuess& g : infer_seams(p))
+    offered += is_overarm(g) || (!g.instead.empty() && is_overarm(g.instead[0]));
+  EXPECT_GE(offered, 1);
+}
+
 /// Halves of a front and of a back with darts, unsewn: middles and sides look like crotch curves
 /// and inseams of two pairs of trousers.
 const char* const BODICE =

@@ -15,6 +15,8 @@ enum class StopReason {
   AT_REST_STRETCHED,
   /// At rest, but a roll line is not turned over: see DrapeReport::stop_detail.
   AT_REST_UNTURNED,
+  /// At rest, but of panels that are at fault: see DrapeReport::stop_detail.
+  AT_REST_AT_FAULT,
   STEP_LIMIT,       ///< DrapeSettings::max_steps
   TIME_LIMIT,       ///< DrapeSettings::max_seconds
   INTERRUPTED,      ///< the user asked for it

@@ -16,8 +16,8 @@ struct PlacementReport {
   int faces_through = 0;   ///< that cross the skin
   /// Mean and largest distance of the two vertices of a stitch, m.
   double seam_gap_mean = 0, seam_gap_max = 0;
-  /// Places that cannot be intended, as sentences: a panel below the floor or above the
-  /// head, a seam a metre open.
+  /// Places that cannot be intended, as sentences: a panel below the floor, whole or for
+  /// the most part, or above the head, a seam a metre open.
   std::vector<std::string> impossible;
   /// Rings of cloth, such as cuffs and waistbands, that start around a limb or the trunk of more
   /// than 1.15 times their length, as sentences.
