@@ -133,6 +133,7 @@ struct RuleInput {
   /// Vertices and points spread over the scan's larger faces about the height of a crotch: a coarse
   /// mesh has few vertices there.
   const std::vector<Vec3>& seat_points;
+  const MadeUpSkin& made_up;
   bool rebuilt, whole; ///< as in SkinSurface
   double s;            ///< stature, m
   Vec3 up;             ///< the likeliest vertical, unit, body frame
@@ -194,9 +195,9 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
     shape = shape_features(levels, arms, figure.female);
   }
   const Situation situation{figure.female > 0.5, body.stance_class.front(), in.rebuilt};
-  const Finder finder{
-      levels, arms,      in.scan_points, in.rebuilt, source, in.rules, in.corrections,
-      shape,  situation, figure,         body,       trail,  in.s};
+  const Finder finder{levels, arms,     in.scan_points, in.made_up, in.rebuilt,
+                      source, in.rules, in.corrections, shape,      situation,
+                      figure, body,     trail,          in.s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);
@@ -246,11 +247,14 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     seat_points.reserve(in.seat_points.size());
     for (const Vec3& p : in.seat_points)
       seat_points.push_back(turn * p + lift);
+    MadeUpSkin made_up{in.made_up.far_m, {}};
+    for (const Vec3& p : in.made_up.middles)
+      made_up.middles.push_back(turn * p + lift);
     std::vector<std::string> unheard;
     ShapeFeatures shape;
-    apply_rules(
-        {points, seat_points, in.rebuilt, in.whole, in.s, turn * in.up, in.rules, in.corrections},
-        trial, unheard, nullptr, shape);
+    apply_rules({points, seat_points, made_up, in.rebuilt, in.whole, in.s, turn * in.up, in.rules,
+                 in.corrections},
+                trial, unheard, nullptr, shape);
     auto add = [](Sum& sum, double miss) {
       sum.squares += miss * miss;
       ++sum.n;
@@ -376,7 +380,9 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   const double lean = is_own_vertical ? likeliest_lean(shape_points, s) : 0;
   const Vec3 up = Vec3(0, std::cos(lean), std::sin(lean));
   const std::vector<Vec3> seat_points = points_at_seat(shape_points, s);
-  const RuleInput input{scan_points, seat_points, skin.rebuilt,  skin.whole,
+  const MadeUpSkin made_up =
+      skin.whole ? MadeUpSkin{} : made_up_skin(body.skin, s, scan_points, shape_points);
+  const RuleInput input{scan_points, seat_points, made_up,       skin.rebuilt,        skin.whole,
                         s,           up,          options.rules, *options.corrections};
   reporter.progress("rules", -1);
   const std::vector<Part> skin_part =
@@ -396,8 +402,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   else
     result.trail.push_back("spread: not measured, the usual one of each rule is given");
   if (!skin.whole && !is_torso)
-    doubt_made_up_skin(body, scan_points, shape_points,
-                       confirmed_pits(body, *options.corrections, result.features));
+    doubt_made_up_skin(body, made_up, confirmed_pits(body, *options.corrections, result.features));
   doubt_dependents(body, options.corrections->strangeness(result.features));
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part =

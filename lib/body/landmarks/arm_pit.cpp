@@ -417,4 +417,25 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   }
 }
 
+Vec3 merge_by_pit(const Vec3& pit, const ArmTrace& arm, const Rules& rules, double s) {
+  const double raised = std::max(0.0, arm.out.y() - rules.number("axilla_merge.raised"));
+  auto of = [&](const std::string& name) {
+    return rules.number("axilla_merge." + name) +
+           rules.number("axilla_merge." + name + "_of_raised") * raised;
+  };
+  const double outside = of("outside");
+  return pit + s * Vec3(arm.left ? outside : -outside, of("above"), of("before"));
+}
+
+Vec3 drawn_to_pit(const Vec3& merge, const Vec3& pit, const ArmTrace& arm, const Rules& rules,
+                  double s) {
+  const Vec3 expected = merge_by_pit(pit, arm, rules, s);
+  auto drawn = [&](int axis, const std::string& most) {
+    const double off = merge[axis] - expected[axis];
+    const double share = std::min(1.0, s * rules.number(most) / std::max(1e-9, std::abs(off)));
+    return expected[axis] + share * share * share * off;
+  };
+  return {drawn(0, "axilla_merge.most_aside"), drawn(1, "axilla_merge.most_above"), merge.z()};
+}
+
 } // namespace sloper::body

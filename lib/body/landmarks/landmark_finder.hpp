@@ -4,6 +4,7 @@
 /// body.girths; nothing is guessed silently.
 #include <algorithm>
 #include <body/landmarks/crotch.hpp>
+#include <body/landmarks/made_up_skin.hpp>
 #include <body/measure/relief.hpp>
 #include <functional>
 #include <initializer_list>
@@ -43,6 +44,7 @@ struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body
+  const MadeUpSkin& made_up;            ///< none of a skin that is whole
   bool rebuilt;               ///< the skin is not the scan's own and has lost its finest ends
   CrotchSource crotch_source; ///< of the crotch of `levels`
   const Rules& rules;

@@ -47,21 +47,29 @@ double skin_area(const TriangleMesh& skin) {
   return 0.5 * twice;
 }
 
-/// Whether a face of the skin within `reach`, m, of p has its middle farther from all points than
-/// the cell of the grids.
-bool is_made_up(const TriangleMesh& skin, const Vec3& p, double reach, const PointGrid& points,
-                const PointGrid& on_faces) {
-  return std::any_of(skin.triangles.begin(), skin.triangles.end(), [&](const Triangle& t) {
-    const Vec3& corner = skin.positions[t[0]];
-    if ((corner - p).cwiseAbs().maxCoeff() > 2 * reach)
-      return false;
-    const Vec3 middle = (corner + skin.positions[t[1]] + skin.positions[t[2]]) / 3;
-    return (middle - p).norm() < reach && points.nearest(middle) < 0 &&
-           on_faces.nearest(middle) < 0;
-  });
+} // namespace
+
+MadeUpSkin made_up_skin(const TriangleMesh& skin, double stature, const std::vector<Vec3>& points,
+                        const std::vector<Vec3>& on_faces) {
+  MadeUpSkin made_up;
+  if (points.empty() || skin.triangles.empty())
+    return made_up;
+  const double spacing = std::sqrt(skin_area(skin) / static_cast<double>(points.size()));
+  made_up.far_m = std::max(FROM_POINTS * stature, SPACINGS * spacing);
+  const PointGrid vertices(points, made_up.far_m), faces(on_faces, made_up.far_m);
+  for (const Triangle& t : skin.triangles) {
+    const Vec3 middle = (skin.positions[t[0]] + skin.positions[t[1]] + skin.positions[t[2]]) / 3;
+    if (vertices.nearest(middle) < 0 && faces.nearest(middle) < 0)
+      made_up.middles.push_back(middle);
+  }
+  return made_up;
 }
 
-} // namespace
+bool MadeUpSkin::is_beside(const Vec3& p, double stature) const {
+  return std::any_of(middles.begin(), middles.end(), [&](const Vec3& middle) {
+    return (middle - p).norm() < RESTS_NEAR * stature;
+  });
+}
 
 std::vector<std::string> confirmed_pits(const Body& body, const Corrections& corrections,
                                         const ShapeFeatures& features) {
@@ -81,18 +89,10 @@ std::vector<std::string> confirmed_pits(const Body& body, const Corrections& cor
   return confirmed;
 }
 
-void doubt_made_up_skin(Body& body, const std::vector<Vec3>& points,
-                        const std::vector<Vec3>& on_faces,
+void doubt_made_up_skin(Body& body, const MadeUpSkin& made_up,
                         const std::vector<std::string>& confirmed) {
-  if (points.empty() || body.skin.triangles.empty())
-    return;
-  const double s = body.scan.stature_m;
-  const double spacing = std::sqrt(skin_area(body.skin) / static_cast<double>(points.size()));
-  const double far = std::max(FROM_POINTS * s, SPACINGS * spacing);
-  const PointGrid vertices(points, far), faces(on_faces, far);
   auto rests_on_it = [&](const std::string& name) {
-    return body.has_landmark(name) &&
-           is_made_up(body.skin, body.landmark(name), RESTS_NEAR * s, vertices, faces);
+    return body.has_landmark(name) && made_up.is_beside(body.landmark(name), body.scan.stature_m);
   };
   auto is_warned = [&](const std::string& name) {
     return std::any_of(body.scan.findings.begin(), body.scan.findings.end(), [&](const Finding& f) {
@@ -102,7 +102,7 @@ void doubt_made_up_skin(Body& body, const std::vector<Vec3>& points,
   char text[160];
   std::snprintf(text, sizeof text,
                 "the skin beside it is made up: the scan has no points within %.0f mm there",
-                1000 * far);
+                1000 * made_up.far_m);
   for (const std::vector<std::string>& together : SKIN_PLACES) {
     if (std::none_of(together.begin(), together.end(), rests_on_it))
       continue;
@@ -112,7 +112,7 @@ void doubt_made_up_skin(Body& body, const std::vector<Vec3>& points,
         continue;
       if (std::find(confirmed.begin(), confirmed.end(), name) != confirmed.end())
         continue;
-      it->second.spread_m = std::max(it->second.spread_m, far);
+      it->second.spread_m = std::max(it->second.spread_m, made_up.far_m);
       it->second.confidence *= MADE_UP_DOUBT;
       body.scan.findings.push_back({"scan.landmark-unsure"_id, "warning", text, name});
     }

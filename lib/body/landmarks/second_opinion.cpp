@@ -17,6 +17,8 @@ constexpr double DISAGREE_REBUILT = 3;
 /// A crotch that no skin shows lies where the rest of the body lets expect it, measured from a
 /// first guess; measured from there, the expectation is another where the guess misled it. Of 20
 /// scans beyond are 4, off in height by 12, 13, 31 and 54 mm; of the others at most by 22.
+/// Of 8 fresh ones none is beyond, and they are off by 25 at most: no false alarm, and no true one
+/// to tell by.
 constexpr double DISAGREE_WITH_ITSELF = 1.5;
 
 struct Place {

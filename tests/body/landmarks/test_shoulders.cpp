@@ -102,6 +102,35 @@ TEST(ArmPit, of_a_level_arm_is_where_its_nearest_piece_joins_the_trunk) {
   EXPECT_NEAR(after.landmark("axilla_merge_l").x(), after.landmark("axilla_l").x(), 0.035 * s);
 }
 
+/// Where rebuilt skin spans the gap, level sections of arm and trunk join 5 cm below the pit, or 7
+/// cm out along a level arm.
+TEST(ArmPit, draws_a_merge_of_skin_that_spans_the_gap) {
+  const Rules rules = Rules::standard();
+  const double s = 1.7;
+  const Vec3 pit(-0.19, 1.28, 0.01);
+  for (const double height : {-0.9, -0.6, -0.3, -0.05}) { // from hanging to level
+    ArmTrace arm;
+    arm.left = false;
+    arm.out = Vec3(-std::sqrt(1 - height * height), height, 0);
+    const Vec3 expected = merge_by_pit(pit, arm, rules, s);
+    EXPECT_LT(expected.x(), pit.x()) << height;
+    EXPECT_LT((expected - pit).norm(), 0.08) << height;
+    const Vec3 near = expected + Vec3(0.015, -0.012, 0.03);
+    EXPECT_EQ((drawn_to_pit(near, pit, arm, rules, s) - near).norm(), 0) << height;
+    const Vec3 spanned = expected + Vec3(-0.07, -0.05, 0.02);
+    const Vec3 drawn = drawn_to_pit(spanned, pit, arm, rules, s);
+    EXPECT_LT(std::abs(drawn.x() - expected.x()), 0.005) << height;
+    EXPECT_LT(std::abs(drawn.y() - expected.y()), 0.005) << height;
+    EXPECT_EQ(drawn.z(), spanned.z()) << height;
+    double before = 0; // nothing jumps
+    for (double off = 0; off < 0.08; off += 0.001) {
+      const Vec3 at = drawn_to_pit(expected + Vec3(0, -off, 0), pit, arm, rules, s);
+      EXPECT_LT(std::abs(expected.y() - at.y() - before), 0.0025) << height << " " << off;
+      before = expected.y() - at.y();
+    }
+  }
+}
+
 /// A gap may end at a bulge of the arm far outside of the pit: of 244 fresh bodies one had its pit
 /// 10 cm outside, the shoulder joint at the hip and no merge.
 TEST(ArmPit, of_a_hanging_arm_is_where_level_sections_join_however_far_out_the_gap_ends) {

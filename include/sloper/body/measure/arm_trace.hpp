@@ -61,6 +61,21 @@ void compare_pits(std::array<ArmTrace, 2>& arms, const Rules& rules, double s);
 /// each other.
 void find_merge(ArmTrace& arm, const LevelStack& levels);
 
+/// Where the merge lies by the arm pit: beside it where the arm hangs, farther outside and above
+/// the more level the upper arm is.
+/// @param pit  m, body frame
+/// @param arm  its side and direction
+/// @param rules  with the offsets
+/// @param s  stature, m
+Vec3 merge_by_pit(const Vec3& pit, const ArmTrace& arm, const Rules& rules, double s);
+
+/// The merge, m, of skin that may span the gap between arm and trunk: as found where it is within
+/// three standard deviations of merge_by_pit(), aside and in height, and beyond drawn to it by the
+/// cube of how much farther it is. Depth as found. Arguments as above.
+/// Test: tests/body/landmarks/test_shoulders.cpp
+Vec3 drawn_to_pit(const Vec3& merge, const Vec3& pit, const ArmTrace& arm, const Rules& rules,
+                  double s);
+
 /// Traces both arms (left first); an arm that cannot be separated from the trunk has no
 /// sections.
 /// @param levels, graph  of the same skin
