@@ -27,7 +27,7 @@ TriangleMesh dense_points(const TriangleMesh& mesh, const std::vector<Vec3>& wit
 }
 
 /// Where a mannequin's landmark is by construction, m.
-Vec3 truth_of(const samples::MadeMannequin& mannequin, const std::string& name) {
+Vec3 truth_of(const test::MadeFigure& mannequin, const std::string& name) {
   const auto& p = mannequin.truth["landmarks"][name]["p"];
   return Vec3(p[0], p[1], p[2]);
 }
@@ -46,7 +46,7 @@ double lift_of(const MeasuredScan& measured, const std::string& pit) {
 /// Right pits were put 15 to 27 mm higher.
 TEST(MadeUpSkin, arm_pits_among_points_stay_where_they_are) {
   for (const char* name : {"f-165-a", "m-170-stout"}) {
-    const samples::MadeMannequin& mannequin = test::mannequin(name);
+    const test::MadeFigure& mannequin = test::mannequin(name);
     const MeasuredScan measured = test::measure(dense_points(mannequin.mesh, {}, 0));
     for (const char* pit : {"axilla_l", "axilla_r"}) {
       ASSERT_TRUE(measured.body.has_landmark(pit)) << name << " " << pit;
@@ -58,7 +58,7 @@ TEST(MadeUpSkin, arm_pits_among_points_stay_where_they_are) {
 
 TEST(MadeUpSkin, arm_pits_that_a_rebuilt_skin_closed_are_put_higher) {
   constexpr double HOLE = 0.07; // m
-  const samples::MadeMannequin& mannequin = test::mannequin("f-165-a");
+  const test::MadeFigure& mannequin = test::mannequin("f-165-a");
   const std::vector<Vec3> pits = {truth_of(mannequin, "axilla_l"), truth_of(mannequin, "axilla_r")};
   const MeasuredScan measured = test::measure(dense_points(mannequin.mesh, pits, HOLE));
   for (const char* pit : {"axilla_l", "axilla_r"}) {
