@@ -161,10 +161,7 @@ void write_pattern(cli::Tool& tool, const Options& o, const garment::Garment& re
 std::vector<garment::RollLineState> judge_rolls(const Options& o, const garment::Garment& source,
                                                 garment::RetargetOutcome& outcome) {
   garment::Garment& garment = outcome.retargeted.garment;
-  // Lines are found on the mesh that the pattern was drawn for: keep-fit moves it off them.
-  garment::Garment on_lines = source;
-  on_lines.position = garment.position;
-  const std::vector<garment::RollLineState> states = garment::roll_line_states(on_lines);
+  const std::vector<garment::RollLineState> states = garment::roll_line_states(garment);
   for (const Message& finding : garment::unturned_findings(states, o.garment))
     outcome.retargeted.report.findings.push_back(finding);
   if (outcome.was_draped() && garment::standing_text(garment::roll_line_states(source)).empty())

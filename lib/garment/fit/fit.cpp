@@ -294,27 +294,6 @@ void add_redrape_spread(const Redrapes& redrapes, FitReport& report) {
       hem.uncertainty_m = std::hypot(hem.uncertainty_m, found->second);
 }
 
-/// Whether the greater part of the neck's edge is that of a collar or lapel that is turned over its
-/// roll line: its length is that of the leaf.
-bool lies_on_turned_leaf(const Garment& garment, const FitHem& hem,
-                         const std::vector<RollLineState>& rolled) {
-  if (hem.name != "neck" || rolled.empty())
-    return false;
-  std::set<std::string> turned;
-  for (const RollLineState& line : rolled)
-    if (line.is_turned())
-      turned.insert(line.panel);
-  std::vector<char> on_leaf(garment.position.size(), 0);
-  for (std::size_t v = 0; v < garment.panels.ids.size(); ++v)
-    if (turned.count(garment.panels.panels[garment.panels.ids[v].panel].name))
-      on_leaf[garment.particle_of[v]] = 1;
-  const auto on_both_ends = [&](const std::array<int, 2>& edge) {
-    return on_leaf[edge[0]] && on_leaf[edge[1]];
-  };
-  return 2 * std::count_if(hem.edges.begin(), hem.edges.end(), on_both_ends) >
-         std::ssize(hem.edges);
-}
-
 } // namespace
 
 FitReport fit_garment(const Garment& garment, const body::Body& body,

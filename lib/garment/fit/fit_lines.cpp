@@ -255,6 +255,25 @@ std::pair<std::string, std::string> limb_of_edge(const std::string& edge) {
 
 } // namespace
 
+bool lies_on_turned_leaf(const Garment& garment, const FitHem& hem,
+                         const std::vector<RollLineState>& rolled) {
+  if (hem.name != "neck" || rolled.empty())
+    return false;
+  std::set<std::string> turned;
+  for (const RollLineState& line : rolled)
+    if (line.is_turned())
+      turned.insert(line.panel);
+  std::vector<char> on_leaf(garment.position.size(), 0);
+  for (std::size_t v = 0; v < garment.panels.ids.size(); ++v)
+    if (turned.count(garment.panels.panels[garment.panels.ids[v].panel].name))
+      on_leaf[garment.particle_of[v]] = 1;
+  const auto on_both_ends = [&](const std::array<int, 2>& edge) {
+    return on_leaf[edge[0]] && on_leaf[edge[1]];
+  };
+  return 2 * std::count_if(hem.edges.begin(), hem.edges.end(), on_both_ends) >
+         std::ssize(hem.edges);
+}
+
 FitLines fit_lines(const Garment& garment, const body::Body& body) {
   FitLines lines;
   double low = 1e300, high = -1e300;

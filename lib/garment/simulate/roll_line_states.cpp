@@ -24,6 +24,47 @@ constexpr double BESIDE = 0.035;  // m from a leaf within which cloth that it li
 // and there the angle alone says to which side cloth is turned.
 constexpr double ABOVE = 0.7;
 
+/// Least and greatest coordinates of points in the plane.
+struct Extent {
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  void add(const Vec2& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  Vec2 size() const { return high - low; }
+};
+
+Extent extent_of(const pattern::Panel& panel) {
+  constexpr int SAMPLES_OF_EDGE = 32;
+  Extent out;
+  for (const pattern::PanelEdge& edge : panel.loops.front()) {
+    const pattern::ArcLength arc(edge.path);
+    for (int k = 0; k <= SAMPLES_OF_EDGE; ++k)
+      out.add(arc.at(arc.length() * k / SAMPLES_OF_EDGE));
+  }
+  return out;
+}
+
+/// Where the vertices lie in the pattern that the mesh knows. keep-fit changes the mesh and not
+/// that pattern: where a panel is of another size than drawn, its vertices go back by their stable
+/// ids, or the lines would run beside their edges.
+std::vector<Vec2> places_as_drawn(const pattern::PanelMesh& mesh) {
+  std::vector<Vec2> places = mesh.pattern;
+  for (std::size_t p = 0; p < mesh.panels.size(); ++p) {
+    const pattern::PanelInfo& panel = mesh.panels[p];
+    const Extent drawn = extent_of(mesh.source->panels[p]);
+    Extent meshed;
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v)
+      meshed.add(mesh.pattern[v]);
+    if ((meshed.low - drawn.low).norm() < pattern::LINE_ON_EDGE &&
+        (meshed.high - drawn.high).norm() < pattern::LINE_ON_EDGE)
+      continue;
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v)
+      places[v] = drawn.low + Vec2(mesh.ids[v].s, mesh.ids[v].t).cwiseProduct(drawn.size());
+  }
+  return places;
+}
+
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -230,13 +271,24 @@ bool RollLineState::stands() const {
   return turned_share < STANDING;
 }
 
-std::vector<RollLineState> roll_line_states(const Garment& garment) {
+static bool has_roll_lines(const pattern::Pattern& pattern) {
+  for (const pattern::Panel& panel : pattern.panels)
+    for (const pattern::InnerLine& line : panel.lines)
+      if (line.kind == "roll")
+        return true;
+  return false;
+}
+
+std::vector<RollLineState> roll_line_states(const Garment& worn) {
   std::vector<RollLineState> out;
-  const pattern::PanelMesh& panels = garment.panels;
-  const bool knows = panels.source && panels.source->panels.size() == panels.panels.size() &&
-                     garment.particle_of.size() == panels.pattern.size();
-  if (!knows)
+  const bool knows = worn.panels.source &&
+                     worn.panels.source->panels.size() == worn.panels.panels.size() &&
+                     worn.particle_of.size() == worn.panels.pattern.size();
+  if (!knows || !has_roll_lines(*worn.panels.source))
     return out;
+  Garment garment = worn;
+  garment.panels.pattern = places_as_drawn(worn.panels);
+  const pattern::PanelMesh& panels = garment.panels;
   const std::vector<Triangle> triangles = garment.particle_triangles();
   std::vector<RolledLine> lines;
   std::vector<char> is_leaf(triangles.size(), 0);

@@ -79,6 +79,13 @@ case_a_collar_that_is_made_over_is_judged_by_its_roll_line() {
   python3 -c 'import json
 (line,) = json.load(open("report.json"))["roll_lines"]
 assert line["turned"] and line["turned_share"] > 0.8, line' || fail "the collar stands, or nothing is said of it"
+  # Made over, its mesh is off the lines of the pattern: it was said to be turned over by 17 %, and the leaf measured as the neck.
+  run "0|4" "$program" --accuracy draft --garment there.json --to "$data/b.body.json" --report report.json --fit fit.json -o again.json
+  python3 -c 'import json
+(line,) = json.load(open("report.json"))["roll_lines"]
+assert line["turned_share"] > 0.8, line
+fit = json.load(open("fit.json"))
+assert "neck_edge" not in fit["girths"] and "turned over" in fit["left_out"]["neck edge"], fit["left_out"]' || fail "the lines are lost"
 }
 
 # A mesh without a pattern comes out with the lines that it came with, but for coordinates; its materials go along.

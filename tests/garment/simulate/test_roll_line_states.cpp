@@ -90,6 +90,14 @@ TEST(RollLineStates, a_line_that_is_turned_over_in_part_is_not_turned) {
   EXPECT_NE(standing_text(roll_line_states(strip(0))), "");
 }
 
+TEST(RollLineStates, of_a_mesh_made_over_are_those_of_the_lines_as_drawn) {
+  Garment garment = strip(120);
+  for (Vec2& p : garment.panels.pattern) // as keep-fit grades it; the pattern stays
+    p = Vec2(1.15 * p.x() + 0.01, 1.3 * p.y() + 0.2 * p.x() * p.x());
+  EXPECT_NEAR(units::degrees(only(garment).turn), 120, 1);
+  EXPECT_TRUE(only(garment).is_turned());
+}
+
 TEST(RollLineStates, a_garment_without_its_pattern_has_none) {
   Garment garment = strip(170);
   garment.panels.source.reset();

@@ -3,6 +3,7 @@
 /// balance.
 #include <sloper/body/body.hpp>
 #include <sloper/garment/garment.hpp>
+#include <sloper/garment/simulate/roll_line_states.hpp>
 
 #include <array>
 #include <optional>
@@ -52,6 +53,12 @@ struct FitLines {
 /// Measures the free edges.
 /// @param garment  bound to `body`
 FitLines fit_lines(const Garment& garment, const body::Body& body);
+
+/// Whether the greater part of the neck's edge is that of a collar or lapel that is turned over its
+/// roll line: its length is that of the leaf, and does not go round the neck.
+/// @param rolled  roll_line_states() of the garment
+bool lies_on_turned_leaf(const Garment& garment, const FitHem& hem,
+                         const std::vector<RollLineState>& rolled);
 
 /// Where hems, sleeves and legs end against the limb that they hang on, and against the body that
 /// the garment comes from. Both are read from the binding: coordinates of the edge's particles
