@@ -66,8 +66,8 @@ inline void add_options(cli::Tool& tool, Options& o) {
       .required()
       .check(cli::input_file());
   tool.option("--mode", o.mode,
-              "keep-fabric: the same sewn garment; keep-fit: the pattern is regraded so that the "
-              "ease stays (default: keep-fabric)")
+              "keep-fabric: the same sewn garment; keep-fit: the pattern is regraded to keep the "
+              "ease of close girths (default: keep-fabric)")
       .check(cli::one_of({"keep-fabric", "keep-fit"}));
   tool.option(
           "--policy", o.policy,
