@@ -28,7 +28,7 @@ struct Grid {
   Vec3 point(int i, int j, int k) const { return origin + cell * Vec3(i, j, k); }
 };
 
-/// Fills `size` corners each way from a corner on, with one value where the middle is far off.
+/// Fills `size` corners along each axis, with one value where the middle is far off.
 void fill_block(Grid& g, const Field& f, const std::array<int, 3>& from, int size) {
   const double reach = FAR_OFF * 0.5 * size * g.cell * std::sqrt(3.0);
   const Vec3 corner(from[0], from[1], from[2]);

@@ -9,8 +9,8 @@ namespace sloper::pattern {
 
 /// Offers the seam over or under the arm as the second answer wherever something else is guessed
 /// for one of its edges and is not certain. Pieces that are called front and back of a sleeve have
-/// a hem each, beyond which both sides are as long in both pieces; they run the other way round in
-/// the piece of the other arm. A back that reaches over the shoulder goes straight on beyond the
+/// a hem each, and the sides beyond it are as long in both pieces, in reverse order in the piece of
+/// the other arm. A back that reaches over the shoulder goes straight on beyond the
 /// front, so a side of it is no side of the seam. First answers stay as they are: with these seams
 /// taken beforehand the rest of the one real sleeve of two pieces that was looked at came out
 /// worse.

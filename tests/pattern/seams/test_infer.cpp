@@ -179,7 +179,7 @@ TEST(Inference, HalvesOfSleevesAreNotSewnToThoseOfTheOtherArm) {
 }
 
 TEST(Inference, TheSeamOverTheArmIsOfferedThoughTheBackOfTheSleeveReachesOverTheShoulder) {
-  // From the hem up: sides of 23 and of 8.6 cm in both. The back goes on straight, 9 cm farther.
+  // From the hem up: sides of 23 and of 8.6 cm in both. The back is 9 cm longer, in line.
   const std::vector<Vec2> front = {{0, 0}, {16, 0}, {16, 23}, {9, 14.5}, {-2.5, 8.2}},
                           back = {{0, 0},  {20, 0},  {22.5, 8.2}, {14, 16},
                                   {4, 27}, {-2, 32}, {0, 23}};

@@ -30,7 +30,8 @@ struct RollLineState {
 /// beyond the line is compared with the cloth within 2 cm before the nearest edge along it; of a
 /// line on a seam with the cloth sewn to it. Outwards is away from the body side of that cloth;
 /// turned by more than 60 degrees, outside of the cloth that the triangle lies on. Lines without
-/// such edges are left out.
+/// such edges are left out. Where keep-fit has changed the mesh and not its pattern, edges are
+/// found by the stable ids of its vertices.
 /// @return empty where the garment does not know its pattern, or it has no roll lines
 std::vector<RollLineState> roll_line_states(const Garment& garment);
 
