@@ -239,6 +239,8 @@ int main(int argc, char** argv) {
   add_options(tool, options);
   return tool.run(argc, argv, [&] {
     check_options(options);
+    for (const Message& warning : passed_over(options))
+      tool.reporter().warning(warning);
     if (options.compare)
       return run_compare(options);
     if (options.output.empty())

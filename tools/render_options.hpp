@@ -1,11 +1,14 @@
 #pragma once
 /// The options of render-png: their texts, and which of them need one another.
 #include <sloper/cli/run_tool.hpp>
+#include <sloper/io/json_fwd.hpp>
 #include <sloper/render/context.hpp>
+#include <sloper/render/export.hpp>
 #include <sloper/render/maps.hpp>
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sloper::render_options {
@@ -20,6 +23,10 @@ struct Options {
   int columns = 0;
   std::optional<cli::Option> seconds_given, columns_given, labels_given, tolerance_given,
       different_given, mask_given;
+  std::vector<std::pair<std::string, cli::Option>> of_pictures; ///< mean nothing to a model
+  std::vector<std::pair<std::string, cli::Option>> of_scenes;   ///< nor to PNG files that are given
+  std::optional<cli::Option> view_given, field_height_given, range_given, fabric_given,
+      colors_given, print_size_given;
   double tolerance = 0.98, different = 0.01, seconds = 0.1, range = 0, print_size = 0.1,
          field_height = 0;
 };
@@ -31,53 +38,80 @@ inline void add_options(cli::Tool& tool, Options& o) {
           "meshes; PNG files with --sheet and --compare")
       .required()
       .check(cli::input_file());
-  tool.option("--view", o.view,
+  o.view_given =
+      tool.option(
+              "--view", o.view,
               "front, back, left, right, iso, pattern (laid flat) or turntable:N; several joined "
               "by commas make a sheet")
-      .show_default()
-      .type_name("LIST");
-  tool.option("--camera", o.camera, "camera.json instead of --view").check(cli::input_file());
-  tool.option("--field-height", o.field_height, "metres that a picture is high; 0 frames the scene")
-      .check(cli::finite_in(0, 1000, "m"));
-  tool.option("--map", o.map, "numbers as colours")
-      .check(cli::one_of(render::map_names()))
-      .show_default();
-  tool.option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one")
-      .check(cli::finite_in(0, 1e9, ""));
+          .show_default()
+          .type_name("LIST");
+  o.of_pictures.emplace_back("--view", *o.view_given);
+  const auto camera =
+      tool.option("--camera", o.camera, "camera.json instead of --view").check(cli::input_file());
+  o.of_pictures.emplace_back("--camera", camera);
+  o.field_height_given = tool.option("--field-height", o.field_height,
+                                     "metres that a picture is high; 0 frames the scene")
+                             .check(cli::finite_in(0, 1000, "m"));
+  o.of_pictures.emplace_back("--field-height", *o.field_height_given);
+  const auto map = tool.option("--map", o.map, "numbers as colours")
+                       .check(cli::one_of(render::map_names()))
+                       .show_default();
+  o.of_scenes.emplace_back("--map", map);
+  o.range_given =
+      tool.option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one")
+          .check(cli::finite_in(0, 1e9, ""));
+  o.of_scenes.emplace_back("--range", *o.range_given);
   tool.option("--values", o.values,
               "write the numbers behind the map: a .csv, or a .ply with a value for each vertex")
       .check(cli::output_file());
-  tool.option("--show", o.show,
+  const auto show =
+      tool.option(
+              "--show", o.show,
               "landmarks, bones, frames, slices, seams, names, of a flat pattern edges; joined by "
               "commas")
-      .type_name("LIST");
-  tool.option("--fabric", o.fabric,
-              "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to "
-              "print on the cloth")
-      .show_default()
-      .type_name("NAME");
-  tool.option("--print-size", o.print_size, "width of one repeat of a printed PNG")
-      .check(cli::finite_in(0.001, 10, "m"))
-      .show_default();
-  tool.option("--color", o.colors,
-              "cloth colours as RRGGBB, one for each garment, joined by commas")
-      .type_name("LIST");
-  tool.option("--size", o.size, "WIDTHxHEIGHT of one view, pixels").show_default().type_name("WxH");
-  tool.option("--background", o.background, "white, grey, transparent, or a colour as RRGGBB")
-      .show_default()
-      .type_name("COLOR");
+          .type_name("LIST");
+  o.of_pictures.emplace_back("--show", show);
+  o.fabric_given =
+      tool.option("--fabric", o.fabric,
+                  "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to "
+                  "print on the cloth")
+          .show_default()
+          .type_name("NAME");
+  o.of_scenes.emplace_back("--fabric", *o.fabric_given);
+  o.print_size_given =
+      tool.option("--print-size", o.print_size, "width of one repeat of a printed PNG")
+          .check(cli::finite_in(0.001, 10, "m"))
+          .show_default();
+  o.of_scenes.emplace_back("--print-size", *o.print_size_given);
+  o.colors_given = tool.option("--color", o.colors,
+                               "cloth colours as RRGGBB, one for each garment, joined by commas")
+                       .type_name("LIST");
+  o.of_scenes.emplace_back("--color", *o.colors_given);
+  const auto size = tool.option("--size", o.size, "WIDTHxHEIGHT of one view, pixels")
+                        .show_default()
+                        .type_name("WxH");
+  o.of_pictures.emplace_back("--size", size);
+  const auto background =
+      tool.option("--background", o.background, "white, grey, transparent, or a colour as RRGGBB")
+          .show_default()
+          .type_name("COLOR");
+  o.of_pictures.emplace_back("--background", background);
   std::vector<std::string> contexts;
   for (const render::ContextKind kind : render::built_contexts())
     contexts.emplace_back(kind == render::ContextKind::EGL ? "egl" : "osmesa");
   o.context = contexts.front();
-  tool.option("--context", o.context, "what draws: osmesa, or egl (surfaceless), as built in")
-      .check(cli::one_of(contexts))
-      .show_default();
-  tool.option("--as", o.as,
-              "several views: one sheet, one animation (APNG), or files of their own, numbered "
-              "before the ending")
-      .check(cli::one_of({"sheet", "animation", "files"}))
-      .show_default();
+  const auto context =
+      tool.option("--context", o.context, "what draws: osmesa, or egl (surfaceless), as built in")
+          .check(cli::one_of(contexts))
+          .show_default();
+  o.of_pictures.emplace_back("--context", context);
+  const auto as =
+      tool.option("--as", o.as,
+                  "several views: one sheet, one animation (APNG), or files of their own, numbered "
+                  "before the ending")
+          .check(cli::one_of({"sheet", "animation", "files"}))
+          .show_default();
+  o.of_pictures.emplace_back("--as", as);
   o.seconds_given =
       tool.option("--seconds", o.seconds, "that each picture of an animation is shown")
           .check(cli::finite_in(0.001, 60, "s"))
@@ -130,6 +164,38 @@ inline void needs(const char* name, const std::optional<cli::Option>& option, bo
                   const char* fact, const char* next) {
   if (option->given() && !there)
     throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", name, fact, next);
+}
+
+/// Warnings of options that are given and change nothing, each with why.
+inline std::vector<Message> passed_over(const Options& o) {
+  std::vector<Message> out;
+  const auto tell = [&](const std::string& name, const cli::Option& option, bool idle,
+                        const std::string& why) {
+    if (idle && option.given())
+      out.push_back({"option.passed-over"_id, name + " changes nothing: " + why});
+  };
+  const bool of_files = o.sheet || o.compare;
+  const bool model = render::is_export(o.output) && !of_files;
+  for (const auto& [name, option] : o.of_scenes)
+    tell(name, option, of_files, "the pictures are drawn already");
+  for (const auto& [name, option] : o.of_pictures) {
+    tell(name, option, of_files, "the pictures are drawn already");
+    tell(name, option, model, "it is for pictures, and " + o.output + " is a model");
+  }
+  if (of_files)
+    return out;
+  const bool mapped = o.map != "none" && o.map != "parts"; // a map of the body's own
+  if (!model) {
+    tell("--view", *o.view_given, !o.camera.empty(), "the camera of " + o.camera + " is drawn");
+    tell("--field-height", *o.field_height_given, !o.camera.empty(),
+         "the camera of " + o.camera + " says how high a picture is");
+  }
+  tell("--range", *o.range_given, !mapped, "it is the scale of a map; give --map too");
+  tell("--fabric", *o.fabric_given, mapped, "the map colours the cloth");
+  tell("--color", *o.colors_given, mapped, "the map colours the cloth");
+  tell("--print-size", *o.print_size_given, io::ending_of(o.fabric) != ".png" || mapped,
+       "no picture is printed on the cloth; give --fabric PNG");
+  return out;
 }
 
 /// Refuses options that need another one. @throws Error USAGE

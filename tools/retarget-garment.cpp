@@ -200,6 +200,8 @@ void write_report(const Options& o, const Retargeted& all, const std::string& to
 int run(cli::Tool& tool, Options o) {
   const garment::RetargetMode mode = garment::retarget_mode_from_name(o.mode);
   check_options(o, mode);
+  for (const Message& warning : passed_over(o))
+    tool.reporter().warning(warning);
   garment::DrapeSettings settings = garment::preset_settings(o.accuracy);
   for (const std::string& assignment : o.set)
     garment::set_knob(settings, assignment);

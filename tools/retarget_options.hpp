@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sloper::retarget_options {
@@ -19,6 +20,7 @@ struct Options {
   std::vector<std::string> set;
   double max_seconds = 0;
   bool no_drape = false, nearest_size = false;
+  std::vector<std::pair<std::string, cli::Option>> of_drapes; ///< mean nothing to --no-drape
 };
 
 /// Name of the built-in policy, which --policy takes beside files.
@@ -88,12 +90,17 @@ inline void add_options(cli::Tool& tool, Options& o) {
   tool.option("--report", o.report,
               "write report.json: placement, convergence, effects, quality, settings")
       .check(cli::output_file());
-  tool.option("--accuracy", o.accuracy, "how exact the re-drape is (default: standard)")
-      .check(cli::one_of(garment::accuracy_names()));
-  tool.option("--set", o.set, "one setting of the re-drape").type_name("KNOB=VALUE");
-  tool.option("--max-seconds", o.max_seconds,
-              "stop after this wall time, s, with the best state so far (exit 4)")
-      .check(cli::finite_in(0, 1e6, "s"));
+  o.of_drapes.emplace_back(
+      "--accuracy",
+      tool.option("--accuracy", o.accuracy, "how exact the re-drape is (default: standard)")
+          .check(cli::one_of(garment::accuracy_names())));
+  o.of_drapes.emplace_back(
+      "--set", tool.option("--set", o.set, "one setting of the re-drape").type_name("KNOB=VALUE"));
+  o.of_drapes.emplace_back(
+      "--max-seconds",
+      tool.option("--max-seconds", o.max_seconds,
+                  "stop after this wall time, s, with the best state so far (exit 4)")
+          .check(cli::finite_in(0, 1e6, "s")));
   tool.option("--cache", o.cache,
               "keep prepared bodies in this folder for later runs on the same body: "
               "the same result, sooner")
@@ -115,6 +122,16 @@ inline void add_options(cli::Tool& tool, Options& o) {
   tool.example(
       "retarget-garment --garment shirt.json --to other.body.json --mode keep-fit -o shirt-b.json",
       "make the shirt over for another body");
+}
+
+/// Warnings of options that are given and change nothing, each with why.
+inline std::vector<Message> passed_over(const Options& o) {
+  std::vector<Message> out;
+  for (const auto& [name, option] : o.of_drapes)
+    if (o.no_drape && option.given())
+      out.push_back(
+          {"option.passed-over"_id, name + " changes nothing: with --no-drape there is no drape"});
+  return out;
 }
 
 /// Refuses options that do not fit together. @param mode  that of o @throws Error USAGE

@@ -27,6 +27,7 @@ SCAN_SUFFIXES = (
 )
 PROGRAMS = ("scan-landmarks", "retarget-garment", "render-png")
 SCANS_A_FILE = 1000
+KEY_LETTERS = 20
 FLAT_CELLS = 4096  # a batch of more cells than this keeps them in 256 folders
 SLICES = 10_000  # at most so many targets in batch.mk
 
@@ -87,7 +88,9 @@ class Hashes:
 
 
 def key_of(description):
-    return hashlib.sha256(json.dumps(description, sort_keys=True).encode()).hexdigest()[:20]
+    return hashlib.sha256(json.dumps(description, sort_keys=True).encode()).hexdigest()[
+        :KEY_LETTERS
+    ]
 
 
 def write_text(path, text):
@@ -295,6 +298,7 @@ class Plan:
             )
         )
         self.keeps_all = scans is not None
+        self.others = 0  # known after missing()
         tools = self.programs
         self.base = key_of(
             {
@@ -326,7 +330,7 @@ class Plan:
         scan, garment = divmod(number, len(self.garments))
         scan, garment = self.scan(scan), self.garments[garment]
         parts = (self.base, garment["sha256"], garment["stem"], scan["key"], scan["name"])
-        return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:20]
+        return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:KEY_LETTERS]
 
     def cell(self, number):
         scan, garment = divmod(number, len(self.garments))
@@ -368,13 +372,18 @@ class Plan:
 
     def missing(self):
         """The cells that are not there yet, as [first, last) ranges of their numbers in ascending
-        order."""
-        made = self.made_keys()
-        return (
-            ranges_of(number for number in range(self.cell_count) if self.key(number) not in made)
-            if made
-            else [[0, self.cell_count]]
-        )
+        order. `others` is then the number of cells that only other batches have asked for."""
+        made = {key for key in self.made_keys() if len(key) == KEY_LETTERS}
+        self.others = len(made)
+        if not made:
+            return [[0, self.cell_count]]
+
+        def is_missing(number):
+            there = self.key(number) in made
+            self.others -= there
+            return not there
+
+        return ranges_of(filter(is_missing, range(self.cell_count)))
 
     def slices(self):
         """Targets of batch.mk: {"bodies": [(first, last)], "cells": [(first, last, index of its

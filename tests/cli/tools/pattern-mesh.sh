@@ -257,3 +257,12 @@ case_a_wrong_edit_is_named_by_its_place_with_undo_too() {
   run 3 "$program" --edits e.json --undo u.json skirt.pattern.json
   says "/edits/1/by"
 }
+
+case_a_fault_that_an_edit_made_is_told_where_the_pattern_is_written() {
+  printf '%s' '{"format": "edits", "version": 1, "length_unit": "cm", "edits": [{"edit": "scale", "panel": "front_l", "x": 1.0, "y": 0.8}]}' > edits.json
+  run 0 "$program" -v --edits edits.json --write-pattern edited.json "$data"/skirt.pattern.json
+  says "warning: after the edits: "
+  says "[pattern.fault-by-edit]"
+  run 0 "$program" --write-pattern same.json "$data"/skirt.pattern.json
+  ! grep -q "after the edits" stderr || fail "tells of edits where none were made"
+}

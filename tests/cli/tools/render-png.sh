@@ -231,3 +231,20 @@ EOF
     "$PWD/questions.json"
   asks 2 "--show edges: edges are named on the flat pattern" "give --view pattern" --show edges -o out.png drawn.dxf
 }
+
+case_options_that_change_nothing_are_told() {
+  run 0 "$program" --size 64x64 --view front,back -o plain.png a.body.json skirt.json
+  ! grep -q "changes nothing" stderr || fail "tells of options that count"
+  run 0 "$program" --size 64x64 --map parts --fabric twill -o plain.png a.body.json skirt.json
+  ! grep -q "changes nothing" stderr || fail "tells of options that count"
+  run 0 "$program" --size 64x64 --range 5 --print-size 0.2 -o out.png a.body.json skirt.json
+  says "--range changes nothing: it is the scale of a map; give --map too"
+  says "--print-size changes nothing: no picture is printed on the cloth"
+  run 0 "$program" --size 64x64 --map strain --fabric twill --color ff0000 -o out.png a.body.json skirt.json
+  says "--fabric changes nothing: the map colours the cloth"
+  says "--color changes nothing: the map colours the cloth"
+  run 0 "$program" --view front,back --as animation -o out.glb a.body.json skirt.json
+  says "--as changes nothing: it is for pictures, and out.glb is a model"
+  run 0 "$program" --sheet --view back -o out.png plain.png plain.png
+  says "--view changes nothing: the pictures are drawn already"
+}

@@ -180,3 +180,8 @@ assert "band &quot;top&quot; is 2 cm too short" in page and "mode: keep-fabric" 
 PYTHON
   run 3 "$program" --garment skirt.json --to b.body.json --policy wovn -o out.json
 }
+
+case_options_of_a_drape_that_is_not_made_are_told() {
+  run 0 "$program" --no-drape --accuracy fine --garment skirt.json --to "$data"/b.body.json -o out.json
+  says "--accuracy changes nothing: with --no-drape there is no drape"
+}
