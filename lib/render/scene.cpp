@@ -1,6 +1,7 @@
 #include <render/srgb.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/body/body_json.hpp>
+#include <sloper/collision/intersections.hpp>
 #include <sloper/garment/garment_json.hpp>
 #include <sloper/garment/inputs.hpp>
 #include <sloper/garment/materials.hpp>
@@ -184,6 +185,32 @@ void read_one(Scene& scene, const std::string& path, const std::string& sidecar)
   }
 }
 
+/// How many triangles of a garment another one passes through.
+std::size_t crossed_triangles(const garment::Garment& a, const garment::Garment& b) {
+  const std::vector<Triangle> of_b = b.particle_triangles();
+  const collision::TriangleTree tree(b.position, of_b);
+  return collision::triangles_through(a.position, a.particle_triangles(), tree).size();
+}
+
+/// Warnings of garments that were draped apart and pass through each other.
+/// @param files  of the garments   @param which  of the scene's garments
+void tell_crossings(Scene& scene, const std::vector<std::string>& files,
+                    const std::vector<std::size_t>& which) {
+  for (std::size_t i = 0; i < which.size(); ++i)
+    for (std::size_t j = i + 1; j < which.size(); ++j) {
+      const garment::Garment &a = scene.garments[which[i]], &b = scene.garments[which[j]];
+      if (a.panels.name == b.panels.name && a.panels.triangles == b.panels.triangles)
+        continue; // two drapes of one pattern, to be compared
+      if (const std::size_t n = crossed_triangles(a, b); n > 0)
+        scene.findings.push_back(
+            {"render.garments-cross"_id,
+             io::file_name(files[i]) + " and " + io::file_name(files[j]) +
+                 " pass through each other, at " + std::to_string(n) +
+                 " triangles of the first: they were draped apart; drape puts one over the other "
+                 "(--over)"});
+    }
+}
+
 } // namespace
 
 DrawMesh cloth_mesh(const garment::Garment& g) {
@@ -328,6 +355,7 @@ Scene read_scene(const std::vector<std::string>& paths) {
            garment::start_findings(scene.garments[which[k]], {draped[k], body, skin, true}))
         scene.findings.push_back(finding);
   }
+  tell_crossings(scene, draped, which);
   std::size_t triangles = 0;
   for (const DrawMesh& m : scene.meshes)
     triangles += m.triangles.size();

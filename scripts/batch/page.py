@@ -29,6 +29,9 @@ SPOKEN = {
     "waist_girth_min": "narrowest waist",
     "waist_width_min": "waist seen from the front",
     "omphalion": "navel",
+    "chest_axilla": "chest under the arms",
+    "hip_girth_max": "widest hip",
+    "ankle_min": "ankle",
 }
 
 GOOD = ("dressed",)
@@ -139,7 +142,10 @@ def badness(status):
 
 def spoken_girth(girth):
     """ "navel" for "omphalion": as the fit pages call it."""
-    return SPOKEN.get(girth, girth.replace("_", " "))
+    name, side = girth, ""
+    if girth[-2:] in ("_l", "_r"):
+        name, side = girth[:-2], "left " if girth.endswith("_l") else "right "
+    return side + SPOKEN.get(name, name.replace("_", " "))
 
 
 def heat_colour(percent):

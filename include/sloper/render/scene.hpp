@@ -61,7 +61,7 @@ struct Scene {
   std::vector<DrawMesh> meshes;           ///< in the order of the documents
   std::vector<std::string> names;         ///< file names, for the PNG's text chunk
   std::vector<AskedEdge> asked;           ///< of a sidecar with questions
-  /// Garments that hang on another body than the one beside them.
+  /// Garments that hang on another body than the one beside them, or pass through each other.
   std::vector<Message> findings;
 };
 

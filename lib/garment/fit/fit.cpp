@@ -5,6 +5,7 @@
 #include <garment/fit/fit_measure.hpp>
 #include <garment/fit/fit_probability.hpp>
 #include <garment/fit/garment_regions.hpp>
+#include <garment/fit/judge_strain.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/garment/materials.hpp>
@@ -135,33 +136,6 @@ void measure_regions(const ClothState& cloth, const std::vector<std::string>& re
     report.regions.push_back({name, static_cast<int>(figures.n), figures.p50, figures.p99,
                               figures.max, figures.direction});
   }
-}
-
-void judge_strain(const FitPolicy& policy, FitReport& report) {
-  const double p99 = policy.strain_p99(report.garment_class, report.fabric),
-               most = policy.strain_max(report.garment_class, report.fabric);
-  if (report.verdict == FitVerdict::TOO_SMALL ||
-      (report.strain_p99 <= p99 && report.strain_max <= most))
-    return;
-  const bool by_p99 = report.strain_p99 > p99;
-  const FitRegion* worst = nullptr;
-  for (const FitRegion& r : report.regions)
-    if (!worst || (by_p99 ? r.strain_p99 > worst->strain_p99 : r.strain_max > worst->strain_max))
-      worst = &r;
-  std::string where;
-  if (worst) {
-    const bool wraps = worst->name == "trunk" || worst->name == "shoulders";
-    where = (wraps ? " over the " : " on the ") + worst->name;
-  }
-  report.verdict = FitVerdict::TOO_SMALL;
-  report.rule = {by_p99 ? "strain_p99" : "strain_max", by_p99 ? p99 : most};
-  if (by_p99)
-    report.reason = "is stretched by " + percent(report.strain_p99) +
-                    " or more in a hundredth of its cloth, chiefly" + where + "; the cloth bears " +
-                    whole_percent(p99);
-  else
-    report.reason = "is stretched by " + whole_percent(report.strain_max) + " at one place" +
-                    where + "; the cloth bears " + whole_percent(most);
 }
 
 /// A cuff that is too small because it lies on the hand: that the sleeve is too long is the reason.

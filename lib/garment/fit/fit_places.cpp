@@ -311,16 +311,21 @@ std::string spoken_girth(const std::string& girth) {
       {"waist_girth_min", "narrowest waist"},
       {"waist_width_min", "waist seen from the front"},
       {"omphalion", "navel"},
+      {"chest_axilla", "chest under the arms"},
+      {"hip_girth_max", "widest hip"},
+      {"ankle_min", "ankle"},
   };
-  if (const auto spoken = SPOKEN.find(girth); spoken != SPOKEN.end())
-    return spoken->second;
-  std::string name = girth;
+  std::string name = girth, side;
+  if (name.ends_with("_l"))
+    side = "left ";
+  else if (name.ends_with("_r"))
+    side = "right ";
+  if (!side.empty())
+    name.resize(name.size() - 2);
+  if (const auto spoken = SPOKEN.find(name); spoken != SPOKEN.end())
+    return side + spoken->second;
   std::replace(name.begin(), name.end(), '_', ' ');
-  if (name.size() > 2 && name.compare(name.size() - 2, 2, " l") == 0)
-    return "left " + name.substr(0, name.size() - 2);
-  if (name.size() > 2 && name.compare(name.size() - 2, 2, " r") == 0)
-    return "right " + name.substr(0, name.size() - 2);
-  return name;
+  return side + name;
 }
 
 } // namespace sloper::garment

@@ -1,5 +1,6 @@
 #include <garment/retarget/retarget_grade.hpp>
 
+#include <garment/retarget/panel_layout.hpp>
 #include <garment/retarget/pattern_mirror.hpp>
 #include <sloper/geometry/sparse_solver.hpp>
 
@@ -15,10 +16,6 @@ namespace sloper::garment {
 
 namespace {
 
-// What the threads stretch by is smoothed far along a thread, which keeps its length, and little
-// across, where each level has its own.
-constexpr double ALONG_THREAD = 0.08;    // m
-constexpr double ACROSS_THREADS = 0.005; // m
 constexpr double SQUARE =
     0.02; // of the angle between warp and weft, a right one, against their lengths
 constexpr double SEAM_STIFFNESS =
@@ -34,37 +31,6 @@ constexpr double SEAM_FINDING =
     1e-3; // m that the sides of a whole seam may differ by without a word
 
 using Mat2 = Eigen::Matrix2d;
-using Mat32 = Eigen::Matrix<double, 3, 2>;
-
-Mat2 sides(const Vec2& a, const Vec2& b, const Vec2& c) {
-  Mat2 m;
-  m << b - a, c - a;
-  return m;
-}
-
-/// Area and gradients of the three hat functions of a triangle; area 0 for one that is no triangle.
-struct FlatTriangle {
-  double area = 0;
-  std::array<Vec2, 3> gradient;
-};
-
-/// One panel on its way to a new layout, in the grain's axes (x weft, y warp); local vertex numbers
-/// are global ones less the panel's first.
-struct PanelLayout {
-  const pattern::PanelInfo* panel;
-  Mat2 to_grain;          ///< rows: weft, warp
-  std::vector<Vec3> flat; ///< before
-  std::vector<Triangle> triangles;
-  Eigen::MatrixX2d log_stretch;   ///< wanted, at vertices: weft, warp
-  std::vector<Vec2> stretch;      ///< the same as a factor, of each triangle
-  Eigen::MatrixX2d solved, seams; ///< the layout; what the seams pull with
-  std::vector<FlatTriangle> shapes;
-  std::vector<Eigen::Triplet<double>> entries;
-  SparseSolver solver; ///< of `entries`
-
-  double length_before(int i, int j) const { return (flat[i] - flat[j]).norm(); }
-  double length_now(int i, int j) const { return (solved.row(i) - solved.row(j)).norm(); }
-};
 
 /// A mesh edge of a panel that is sewn to another one.
 struct SeamEdge {
@@ -75,104 +41,6 @@ struct SeamEdge {
   bool keeps_direction; ///< of a straight seam between a panel and its mirror image: it leaves its
                         ///< line only where nothing else gives way
 };
-
-FlatTriangle flat_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  FlatTriangle result;
-  const Mat2 d = sides(Vec2(a.head<2>()), Vec2(b.head<2>()), Vec2(c.head<2>()));
-  const double area = 0.5 * std::abs(d.determinant());
-  if (area < 1e-12)
-    return result;
-  const Mat2 inverse = d.inverse(); // rows: gradients of the 2nd and 3rd hat function
-  result.area = area;
-  result.gradient = {-(inverse.row(0) + inverse.row(1)).transpose(), inverse.row(0).transpose(),
-                     inverse.row(1).transpose()};
-  return result;
-}
-
-/// Adds the squared gradient of a function on a panel, its part along an axis of the grain weighed
-/// by `along`, the other by `across`.
-void add_gradients(const PanelLayout& layout, int axis, double along, double across,
-                   std::vector<Eigen::Triplet<double>>& entries) {
-  for (std::size_t f = 0; f < layout.triangles.size(); ++f) {
-    const Triangle& t = layout.triangles[f];
-    const FlatTriangle& flat = layout.shapes[f];
-    for (int i = 0; i < 3 && flat.area > 0; ++i)
-      for (int j = 0; j < 3; ++j)
-        entries.emplace_back(
-            t[i], t[j],
-            flat.area * (along * flat.gradient[i][axis] * flat.gradient[j][axis] +
-                         across * flat.gradient[i][1 - axis] * flat.gradient[j][1 - axis]));
-  }
-}
-
-Eigen::SparseMatrix<double> matrix_of(const std::vector<Eigen::Triplet<double>>& entries, int n) {
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-/// A panel as it is, with the stretch that its cloth is to follow.
-/// @param widen_strained_pieces  #F: by what warp and weft are to be longer besides, or empty
-PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& panel,
-                            const std::vector<Vec3>& before, const std::vector<Vec3>& after,
-                            const std::vector<Vec2>& widen_strained_pieces) {
-  PanelLayout layout;
-  layout.panel = &panel;
-  const int n = panel.n_vertices;
-  std::vector<Vec3>& flat = layout.flat;
-  flat.resize(n);
-  layout.to_grain << panel.grain.y(), -panel.grain.x(), panel.grain.x(), panel.grain.y();
-  for (int i = 0; i < n; ++i) {
-    const Vec2 p = layout.to_grain * garment.panels.pattern[panel.first_vertex + i];
-    flat[i] = Vec3(p.x(), p.y(), 0);
-  }
-  for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
-    const Triangle& t = garment.panels.triangles[f];
-    const Triangle local{t[0] - panel.first_vertex, t[1] - panel.first_vertex,
-                         t[2] - panel.first_vertex};
-    layout.triangles.push_back(local);
-    layout.shapes.push_back(flat_triangle(flat[local[0]], flat[local[1]], flat[local[2]]));
-  }
-  // The field over the vertices whose means over the triangles are the log stretch of weft and warp
-  // there, smoothed.
-  Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(n, 2);
-  std::vector<Eigen::Triplet<double>> means;
-  for (std::size_t f = 0; f < layout.triangles.size(); ++f) {
-    const Triangle &local = layout.triangles[f],
-                   &t = garment.panels.triangles[panel.first_triangle + f];
-    const FlatTriangle& shape = layout.shapes[f];
-    if (shape.area <= 0)
-      continue;
-    Mat32 then = Mat32::Zero(),
-          now = Mat32::Zero(); // columns: where a unit of weft, a unit of warp lay and lies
-    for (int k = 0; k < 3; ++k) {
-      then += before[garment.particle_of[t[k]]] * shape.gradient[k].transpose();
-      now += after[garment.particle_of[t[k]]] * shape.gradient[k].transpose();
-    }
-    Eigen::RowVector2d value;
-    for (int axis = 0; axis < 2; ++axis)
-      value[axis] = std::log(
-          std::clamp(now.col(axis).norm() / std::max(then.col(axis).norm(), 1e-9), 0.2, 5.0));
-    if (!widen_strained_pieces.empty())
-      value += widen_strained_pieces[panel.first_triangle + f].transpose();
-    for (const int i : local) {
-      right.row(i) += shape.area / 3 * value;
-      for (const int j : local)
-        means.emplace_back(i, j, shape.area / 9);
-    }
-  }
-  layout.log_stretch.resize(n, 2);
-  for (int axis = 0; axis < 2; ++axis) {
-    std::vector<Eigen::Triplet<double>> entries = means;
-    add_gradients(layout, axis, ALONG_THREAD * ALONG_THREAD, ACROSS_THREADS * ACROSS_THREADS,
-                  entries);
-    for (int i = 0; i < n; ++i)
-      entries.emplace_back(i, i, 1e-12); // for vertices of no triangle
-    const SparseSolver smoother(matrix_of(entries, n));
-    layout.log_stretch.col(axis) = smoother.solve(Eigen::VectorXd(right.col(axis)));
-  }
-  return layout;
-}
 
 /// What weft and warp of a triangle are to be stretched by.
 Vec2 wanted_stretch(const PanelLayout& layout, const Triangle& t) {

@@ -248,3 +248,14 @@ case_options_that_change_nothing_are_told() {
   run 0 "$program" --sheet --view back -o out.png plain.png plain.png
   says "--view changes nothing: the pictures are drawn already"
 }
+
+case_garments_that_pass_through_each_other_are_told() {
+  sed -E 's/"name": "skirt"/"name": "other"/' skirt.json > moved.json
+  sed -i 's/skirt\.obj/moved.obj/' moved.json
+  awk '/^v / { $2 += 0.01 } { print }' skirt.obj > moved.obj
+  run 0 "$program" --size 64x64 -o out.png a.body.json skirt.json moved.json
+  says "skirt.json and moved.json pass through each other, at "
+  says "drape puts one over the other (--over)"
+  run 0 "$program" --size 64x64 -o out.png a.body.json skirt.json skirt.json
+  ! grep -q "pass through" stderr || fail "tells of two drapes of one pattern"
+}

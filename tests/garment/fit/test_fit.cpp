@@ -172,6 +172,30 @@ TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
   EXPECT_GT(most, 0.1);
 }
 
+TEST(fit, a_girth_around_which_cloth_is_stretched_too_far_says_so) {
+  const body::Body body = measured("f-165-a");
+  Garment g = skin_shirt(body, 0.02);
+  const double bust = body.levels.at("bust").y;
+  for (std::size_t f = 0; f < g.panels.triangles.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 middle = 0.5 * (g.position[g.panels.triangles[f][k]] +
+                                 g.position[g.panels.triangles[f][(k + 1) % 3]]);
+      if (middle.z() > 0 && std::abs(middle.x()) < 0.08 && std::abs(middle.y() - bust) < 0.025)
+        g.rest_scale[f][k] *= 0.87;
+    }
+  const Dressed d = dressed(body, g);
+  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
+  EXPECT_NE(d.report.reason.find(" (at the "), std::string::npos) << d.report.reason;
+  const FitRow* r = row(d.report, "bust");
+  ASSERT_TRUE(r);
+  EXPECT_EQ(r->verdict, FitVerdict::TOO_SMALL);
+  EXPECT_EQ(r->rule.key, "strain_p99");
+  EXPECT_EQ(r->reason.rfind("is stretched by 1", 0), 0u) << r->reason;
+  const FitRow* waist = row(d.report, "waist_girth_min");
+  ASSERT_TRUE(waist);
+  EXPECT_NE(waist->verdict, FitVerdict::TOO_SMALL) << "not where the cloth is not stretched";
+}
+
 TEST(fit, a_level_at_the_arm_pits_is_measured_with_its_arms_left_out) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_shirt(body, 0.01));

@@ -86,6 +86,45 @@ std::vector<double> widths_over(const Garment& graded, const Garment& before) {
   return widths;
 }
 
+/// The tube, as it hung so far from the skin of a torso.
+Garment hung_tube(double gap) {
+  Garment g = sewn_tube(0.15, 0.4, 0.6);
+  for (Vec3& p : g.position)
+    p = Vec3(-p.z(), p.y(), p.x()); // its seams lie at the sides
+  g.bind.frames = {"torso"};
+  g.bind.lengths_m = {1};
+  g.bind.marks.resize(1);
+  for (const Vec3& p : g.position)
+    g.bind.particles.push_back(
+        {{.frame = 0, .weight = 1, .theta = std::atan2(p.x(), p.z()), .z = p.y(), .gap = gap}});
+  return g;
+}
+
+TEST(regrade, loose_cloth_takes_the_trend_of_the_levels_and_close_cloth_each_of_them) {
+  // 5 % wider above than below, and 6 % more around one level
+  const auto trend = [](double y) { return 1.05 + 0.125 * (y - 0.8); };
+  const auto bump = [](double y) { return 0.06 * std::exp(-std::pow((y - 0.8) / 0.035, 2)); };
+  for (const bool loose : {false, true}) {
+    const Garment g = hung_tube(loose ? 0.04 : 0.004);
+    std::vector<Vec3> after = g.position;
+    for (Vec3& p : after) {
+      const double wider = trend(p.y()) + bump(p.y());
+      p.x() *= wider;
+      p.z() *= wider;
+    }
+    Garment graded = g;
+    regrade(graded, g.position, after);
+    const std::vector<double> widths = widths_over(graded, g);
+    for (int r = 0; r <= 12; ++r) {
+      const double y = 0.6 + 0.4 * r / 12;
+      if (loose) // the bump's area is spread over the levels
+        EXPECT_NEAR(widths[r], trend(y) + 0.01, 0.014) << "row " << r;
+      else
+        EXPECT_NEAR(widths[r], trend(y) + bump(y), 0.02) << "row " << r;
+    }
+  }
+}
+
 TEST(regrade, a_straight_seam_between_mirror_images_stays_straight) {
   Garment g = sewn_tube(
       0.15, 0.4,
