@@ -165,7 +165,7 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0, in.up);
   if (phases)
     phases->done("slicing");
-  const CrotchEvidence evidence{in.seat_points, in.rules, in.rebuilt, in.whole};
+  CrotchEvidence evidence{in.seat_points, in.rules, in.rebuilt, in.whole};
   CrotchSource source = doubt_crotch(levels, evidence, body.scan.findings, trail)
                             ? CrotchSource::BUTTOCKS
                             : CrotchSource::SKIN;
@@ -190,6 +190,7 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   FigureClass figure = classify_figure(levels, arms, in.rules, trail);
   shape = shape_features(levels, arms, figure.female);
   const auto expected = in.corrections.extrapolated("crotch", shape, -1);
+  evidence.at_an_end = in.corrections.crotch_at_an_end(shape);
   if (expected && expect_crotch(levels, *expected, evidence, source, body.scan.findings, trail)) {
     figure = classify_figure(levels, arms, in.rules, trail);
     shape = shape_features(levels, arms, figure.female);
@@ -403,7 +404,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     result.trail.push_back("spread: not measured, the usual one of each rule is given");
   if (!skin.whole && !is_torso)
     doubt_made_up_skin(body, made_up, confirmed_pits(body, *options.corrections, result.features));
-  doubt_dependents(body, options.corrections->strangeness(result.features));
+  doubt_dependents(body, options.corrections->strangeness(result.features),
+                   pits_are_low(body, *options.corrections, result.features));
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part =
       label_scan(positions, labelled, skin.of_scan, body.skin, skin_part, 0.03 * s);

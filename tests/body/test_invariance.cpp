@@ -38,8 +38,10 @@ std::vector<Figure> figures() {
 /// The same with four times the faces, for what changes the mesh.
 std::vector<Figure> dense_figures() {
   std::vector<Figure> list = figures();
-  for (Figure& figure : list)
+  for (Figure& figure : list) {
     figure.mesh = test::subdivided(figure.mesh);
+    figure.name += ", dense"; // as_it_is() keeps figures by name
+  }
   return list;
 }
 

@@ -1,6 +1,6 @@
 #include <body/landmarks/landmark_finder.hpp>
 #include <body/landmarks/shoulder_slope.hpp>
-#include <body/measure/plateau.hpp>
+#include <body/measure/arm_girths.hpp>
 #include <sloper/base/units.hpp>
 
 #include <algorithm>
@@ -14,60 +14,6 @@ namespace {
 constexpr double REAR_FLAT = 0.002; ///< m
 constexpr double STRAIGHT =
     0.26; ///< bend of an elbow that tells nothing: 15 degrees, as the length of bend_at()
-
-/// Where the wrist is: behind the widest of the hand the girth falls to its least. Empty when it
-/// does not. The search starts at the palm, so that a fist, whose hand is short, has a wrist too.
-std::optional<double> wrist_by_girth(const ArmTrace& arm, const Finder& f) {
-  const double s = f.s;
-  const auto& sections = arm.sections;
-  std::size_t palm = 0;
-  for (std::size_t k = 0; k < sections.size() && sections[k].along < 0.11 * s; ++k)
-    if (sections[k].girth > sections[palm].girth)
-      palm = k;
-  if (sections.empty() || sections[palm].along > 0.105 * s)
-    return std::nullopt; // still rising: no palm
-  std::size_t least = palm;
-  for (std::size_t k = palm + 1;
-       k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k)
-    if (sections[k].girth < 0.995 * sections[least].girth)
-      least = k;
-  if (sections[least].girth > f.number("wrist.least_to_palm") * sections[palm].girth)
-    return std::nullopt;
-  double sum = 0, weight = 0; // the middle of where it is as thin as makes no difference
-  for (std::size_t k = palm + 1;
-       k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k) {
-    const double w = std::max(0.0, 1.015 * sections[least].girth - sections[k].girth);
-    if (std::abs(sections[k].along - sections[least].along) < 0.02 * s) {
-      sum += w * sections[k].along;
-      weight += w;
-    }
-  }
-  return sum / weight;
-}
-
-/// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the
-/// forearm's belly.
-std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist) {
-  const auto& sections = arm.sections;
-  std::vector<Vec2> falls; // along, girth lost per length
-  for (std::size_t k = 3; k + 3 < sections.size(); ++k) {
-    const double along = sections[k].along;
-    if (along < wrist + 0.10 * s || along > wrist + 0.185 * s)
-      continue;
-    double rise = 0;
-    for (std::size_t j = 1; j <= 3; ++j)
-      rise += (sections[k + j].girth - sections[k - j].girth) /
-              (sections[k + j].along - sections[k - j].along) / 3;
-    falls.emplace_back(along, -rise);
-  }
-  double steepest = 0;
-  for (const Vec2& fall : falls)
-    steepest = std::max(steepest, -fall.y());
-  if (steepest <= 0)
-    return std::nullopt;
-  return lowest_of(falls, 0.25 * steepest)
-      .middle; // of what is about as steep: sections lie centimetres apart
-}
 
 /// The gap of one arm closes lower than the other's: what rests on it is believed less.
 void tell_lifted_pit(const Finder& f, const ArmTrace& arm, const std::string& suffix) {
@@ -163,17 +109,57 @@ void keep_merge_at_pit(const Finder& f, const ArmTrace& arm, const std::string& 
   merge->second.p.x() = pit + out * std::min(limit, out * (merge->second.p.x() - pit));
 }
 
-/// Of skin that may span the gap the merge is drawn to where the pit lets expect it: of 60
-/// corrupted scans four merges were 65 to 69 mm off, and are 34 to 40 so. Skin that is the scan's
-/// own shows the merge: of 114 of fresh bodies one would be drawn 21 mm off.
-void draw_merge_to_pit(const Finder& f, const ArmTrace& arm, const std::string& suffix) {
+/// A point, what it may be off by along each axis, m, and the share to which bodies like this one
+/// taught it.
+struct ExpectedPoint {
+  Vec3 p, sd;
+  double share = 1;
+};
+
+/// Where pit, arm direction and the shape of shoulder and arm let expect the merge: of 403 arms of
+/// 226 bodies, cross validated, off by 5.8 mm aside, 3.7 in height and 10.5 in depth (standard
+/// deviation).
+ExpectedPoint expected_merge(const Finder& f, int side) {
+  constexpr const char* BEYOND[] = {"axilla_merge_outside", "axilla_merge_above",
+                                    "axilla_merge_before"};
+  const ArmTrace& arm = f.arms[side];
+  const Vec3& pit = f.at(std::string("axilla") + side_suffix(side));
+  ExpectedPoint expected{merge_by_pit(pit, arm, f.rules, f.s), Vec3::Ones()};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto beyond = f.corrections.extrapolated(BEYOND[axis], f.shape, side);
+    expected.share = std::min(expected.share, f.corrections.membership(BEYOND[axis], f.shape));
+    if (!beyond || expected.share <= 0)
+      continue;
+    const double sign = axis == 0 && !arm.left ? -1 : 1;
+    expected.p[axis] += expected.share * sign * beyond->height * f.s;
+    expected.sd[axis] = beyond->sd * f.s;
+  }
+  return expected;
+}
+
+/// The mean of what the skin shows and of what is expected, the latter the heavier the farther they
+/// are apart, for each axis; of bodies unlike those that taught it only what is far off is drawn.
+Vec3 likelier_merge(const Finder& f, int side, const Vec3& found) {
+  const ExpectedPoint expected = expected_merge(f, side);
+  const Eigen::Array3d off = (expected.p - found).array();
+  const Eigen::Array3d squared = (off / expected.sd.array()).square();
+  const Vec3 mean = found + (squared / (squared + 1) * off).matrix();
+  const Vec3 drawn = drawn_to_pit(found, f.at(std::string("axilla") + side_suffix(side)),
+                                  f.arms[side], f.rules, f.s);
+  return expected.share * mean + (1 - expected.share) * drawn;
+}
+
+/// Of skin that may span the gap the merge is drawn to where it is expected: of 30 arms of 36 fresh
+/// scans off by 18.3 mm on average as the skin shows it, 50 at most, and by 13.3 and 38 so. Skin
+/// that is the scan's own shows the merge: of 34 arms it is 6.2 mm off, and would be 8.6.
+void draw_merge_to_pit(const Finder& f, int side) {
   constexpr double TOLD = 0.012;  // of stature: 20 mm
   constexpr double DOUBTED = 0.6; // of the confidence
-  const auto merge = f.body.landmarks.find("axilla_merge" + suffix);
+  const auto merge = f.body.landmarks.find(std::string("axilla_merge") + side_suffix(side));
   if (merge == f.body.landmarks.end())
     return;
   const Vec3 found = merge->second.p;
-  merge->second.p = drawn_to_pit(found, f.at("axilla" + suffix), arm, f.rules, f.s);
+  merge->second.p = likelier_merge(f, side, found);
   const double moved = (merge->second.p - found).norm();
   if (moved < TOLD * f.s)
     return;
@@ -185,6 +171,17 @@ void draw_merge_to_pit(const Finder& f, const ArmTrace& arm, const std::string& 
                 "beside the arm pit",
                 1000 * moved);
   f.body.scan.findings.push_back({"scan.armpit-estimated"_id, "warning", text, merge->first});
+}
+
+/// The merge that no level section of the arm shows, as of a level arm on rebuilt skin.
+std::optional<Vec3> merge_beside_pit(const Finder& f, int side) {
+  if (f.arms[side].pit_hidden)
+    return std::nullopt;
+  f.body.scan.findings.push_back(
+      {"scan.armpit-estimated"_id, "warning",
+       "no level sections of arm and trunk join: it is put where the arm pit lets expect it",
+       std::string("axilla_merge") + side_suffix(side)});
+  return expected_merge(f, side).p;
 }
 
 struct Aside {
@@ -240,7 +237,9 @@ Vec3 find_shoulder(const Finder& f, int side) {
               {"as_other_arm",
                [&] { return arm.pit_mirrored ? pit_if(true) : std::optional<Vec3>(); }},
               {"proportion", [&] { return pit_if(true); }}})) {
-    f.find("axilla_merge", suffix, 1, {{"level_sections_merge", [&] { return arm.merge; }}});
+    f.find("axilla_merge", suffix, 1,
+           {{"level_sections_merge", [&] { return arm.merge; }},
+            {"beside_arm_pit", [&] { return merge_beside_pit(f, side); }}});
     if (arm.pit_hidden)
       f.body.scan.findings.push_back({"scan.armpit-estimated"_id, "warning",
                                       arm.pit_mirrored
@@ -252,7 +251,7 @@ Vec3 find_shoulder(const Finder& f, int side) {
     keep_merge_at_pit(f, arm, suffix);
     lift_closed_pit(f, side);
     if (f.rebuilt || f.crotch_source != CrotchSource::SKIN)
-      draw_merge_to_pit(f, arm, suffix);
+      draw_merge_to_pit(f, side);
     if (arm.moved_to_merge_m > 0)
       tell_moved_pit(f, arm, suffix);
     if (arm.lifted_m > 0)
@@ -447,7 +446,8 @@ void find_arm_landmarks(const Finder& f) {
         f.choose<double>("wrist", "wrist" + suffix,
                          {{"least_girth_after_hand",
                            [&]() -> std::optional<double> {
-                             const auto least = wrist_by_girth(arm, f);
+                             const auto least =
+                                 wrist_by_girth(arm, f.number("wrist.least_to_palm"), s);
                              if (!least || *least > by_ratio + f.number("wrist.longest_hand") * s)
                                return std::nullopt;
                              return *least - f.number("wrist.before_least_girth") * s;

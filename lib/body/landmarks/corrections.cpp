@@ -16,6 +16,9 @@ constexpr double MOST = 0.03;  ///< of stature: no correction is larger along an
 constexpr double BEYOND = 3;   ///< standard deviations: farther out a feature counts no more
 constexpr double FAR = 6;      ///< and for the unlikeness no more than this
 constexpr double NOTHING_LEARNED = 2; ///< of a make's limit: what was learned says nothing at all
+/// Of a make's limit: a body that is as much nearer to it than to the others belongs to it. Of 72
+/// corrupted scans each is by 0.13 or more; 18 mannequins are nearer to mannequins by 0.33.
+constexpr double NEARER = 0.1;
 constexpr double NO_MORE = 1.2; ///< of a make's limit, at which its bodies say nothing any more
 
 std::vector<double> numbers_of(const io::Node& list, double unit) {
@@ -65,17 +68,13 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
   for (const std::string& place : points.keys()) {
     const io::Node entry = points.at(place);
     Point& point = corrections.m_points[place];
-    point.of_make.assign(corrections.m_makes.size(), entry.has("makes") ? 0 : 1);
-    if (entry.has("makes"))
-      for (const double make : numbers_of(entry.at("makes"), 1)) {
-        if (!(make >= 0 && make < static_cast<double>(point.of_make.size())))
-          entry.at("makes").fail("json.bad-index"_id, "names a make that is not there");
-        point.of_make[make] = 1;
-      }
+    point.of_make = corrections.read_makes(entry, "makes");
     for (int axis = 0; axis < 3; ++axis)
       if (const std::string letter(1, "xyz"[axis]); entry.has(letter))
         point.axis[axis] = corrections.read_weights(entry.at(letter));
   }
+  if (root.has("crotch_at_an_end"))
+    corrections.m_crotch_at_an_end = corrections.read_makes(root, "crotch_at_an_end");
   if (!root.has("expected"))
     return corrections;
   const io::Node expected = root.at("expected");
@@ -83,10 +82,24 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
     const io::Node entry = expected.at(place);
     Weights& weights = corrections.m_expected[place] = corrections.read_weights(entry.at("y"));
     weights.sd = UNIT * entry.at("sd").number();
+    weights.of_make = corrections.read_makes(entry, "makes");
     if (!(weights.sd > 0))
       entry.at("sd").fail("json.out-of-range"_id, "is not positive");
   }
   return corrections;
+}
+
+/// 1 for each make that the list names; for all where there is no list.
+std::vector<char> Corrections::read_makes(const io::Node& entry, const char* key) const {
+  std::vector<char> of_make(m_makes.size(), entry.has(key) ? 0 : 1);
+  if (!entry.has(key))
+    return of_make;
+  for (const double make : numbers_of(entry.at(key), 1)) {
+    if (!(make >= 0 && make < static_cast<double>(of_make.size())))
+      entry.at(key).fail("json.bad-index"_id, "names a make that is not there");
+    of_make[make] = 1;
+  }
+  return of_make;
 }
 
 void Corrections::read_population(const io::Node& root) {
@@ -196,6 +209,26 @@ double Corrections::likeness(const ShapeFeatures& features,
       most = std::max(most,
                       std::clamp((NO_MORE - far[m] / m_makes[m].limit) / (NO_MORE - 1), 0.0, 1.0));
   return most;
+}
+
+double Corrections::membership(const ShapeFeatures& features,
+                               const std::vector<char>& of_make) const {
+  const std::vector<double> far = distances(features);
+  double near = 1e300, other = 1e300;
+  for (std::size_t m = 0; m < far.size() && m < of_make.size(); ++m) {
+    double& nearest = of_make[m] ? near : other;
+    nearest = std::min(nearest, far[m] / m_makes[m].limit);
+  }
+  return likeness(features, &of_make) * std::clamp((other - near) / NEARER, 0.0, 1.0);
+}
+
+double Corrections::membership(const std::string& place, const ShapeFeatures& features) const {
+  const auto it = m_expected.find(place);
+  return it == m_expected.end() ? 0 : membership(features, it->second.of_make);
+}
+
+double Corrections::crotch_at_an_end(const ShapeFeatures& features) const {
+  return m_crotch_at_an_end.empty() ? 0 : membership(features, m_crotch_at_an_end);
 }
 
 Vec3 Corrections::offset(const std::string& place, const ShapeFeatures& features, int side) const {

@@ -40,6 +40,7 @@ constexpr GirthRests GIRTH_RESTS[] = {{"thigh_l", "crotch"},       {"thigh_r", "
 /// all of them right within 15 mm.
 constexpr double MERGE_BELOW = 0.0125;
 constexpr double MERGE_DOUBT = 0.5; ///< of the confidence
+constexpr double ROUNDED = 0.5;     ///< of the confidence of a crotch where the skin is rounded
 /// Of the confidence: off by more than 25 mm are 13 % of the landmarks of bodies stranger than
 /// those learned from, and 0.4 % of the others'.
 constexpr double STRANGE = 0.6;
@@ -80,11 +81,14 @@ bool is_found(const Body& body, const char* id) {
 }
 
 /// A scanner's own faces that have grown together between the legs may have between arms and trunk:
-/// of four such scans the merges were 27 to 44 mm too low on three.
-bool has_grown_together(const Body& body) {
+/// of four such scans the merges were 27 to 44 mm too low on three. Skin that is rounded between
+/// the legs has grown together where the pits are low as well.
+bool has_grown_together(const Body& body, bool pits_are_low) {
   const auto crotch = body.landmarks.find("crotch");
-  return crotch != body.landmarks.end() && crotch->second.rule == "by_rest_of_body" &&
-         !is_found(body, "scan.skin-rebuilt");
+  if (crotch == body.landmarks.end() || is_found(body, "scan.skin-rebuilt"))
+    return false;
+  return crotch->second.rule == "by_rest_of_body" ||
+         (is_found(body, "scan.crotch-rounded") && pits_are_low);
 }
 
 /// Of eight arm pits of such scans four were 25 to 60 mm too low, with the folds beside them.
@@ -101,13 +105,13 @@ void doubt_grown_pit(Body& body, const std::string& side) {
   }
 }
 
-void doubt_merge(Body& body, const std::string& side) {
+void doubt_merge(Body& body, const std::string& side, bool has_grown) {
   const auto merge = body.landmarks.find("axilla_merge" + side);
   if (merge == body.landmarks.end() || !body.has_landmark("axilla" + side))
     return;
   const double below = body.landmark("axilla" + side).y() - merge->second.p.y();
   const bool is_below = below > MERGE_BELOW * body.scan.stature_m;
-  if (!is_below && !has_grown_together(body))
+  if (!is_below && !has_grown)
     return;
   merge->second.confidence *= MERGE_DOUBT;
   char text[160];
@@ -156,10 +160,13 @@ void doubt_girths(Body& body) {
 
 } // namespace
 
-void doubt_dependents(Body& body, double strangeness) {
+void doubt_dependents(Body& body, double strangeness, bool pits_are_low) {
+  if (is_found(body, "scan.crotch-rounded"))
+    body.landmarks["crotch"].confidence *= ROUNDED;
+  const bool has_grown = has_grown_together(body, pits_are_low);
   for (const char* side : {"_l", "_r"}) {
-    doubt_merge(body, side);
-    if (has_grown_together(body))
+    doubt_merge(body, side, has_grown);
+    if (has_grown)
       doubt_grown_pit(body, side);
   }
   if (strangeness > 1)

@@ -32,4 +32,8 @@ void doubt_made_up_skin(Body& body, const MadeUpSkin& made_up,
 std::vector<std::string> confirmed_pits(const Body& body, const Corrections& corrections,
                                         const ShapeFeatures& features);
 
+/// Whether the arm pits are half a standard deviation lower than head and shoulders let expect,
+/// mean of both: no proof by itself that skin has grown together there. Arguments as above.
+bool pits_are_low(const Body& body, const Corrections& corrections, const ShapeFeatures& features);
+
 } // namespace sloper::body

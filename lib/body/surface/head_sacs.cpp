@@ -13,9 +13,9 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double CELL = 0.002;       // m, of a depth map
+constexpr double MAP_CELL = 0.002;   // m, of a depth map
 constexpr double BEHIND = 0.002;     // m: skin so little behind the foremost is seen
-constexpr double LEAST_AREA = 0.001; // m2, of a sac
+constexpr double LEAST_SAC = 0.001;  // m2, of a sac
 constexpr double LARGEST_HEAD = 0.6; // m: what is larger is no head, and its maps would be large
 
 double area_of(const TriangleMesh& mesh, int face) {
@@ -43,7 +43,7 @@ public:
     axes.row(2) = back.transpose();
     Box3 box;
     for (const Vec3& p : head.mesh.positions) {
-      m_points.push_back(axes * p / CELL);
+      m_points.push_back(axes * p / MAP_CELL);
       box.add(m_points.back());
     }
     for (Vec3& p : m_points)
@@ -60,7 +60,7 @@ public:
     const Vec3 middle = middle_of(face);
     return double_area(face) > 0 &&
            middle.z() >= m_depth[cell(static_cast<int>(middle.x()), static_cast<int>(middle.y()))] -
-                             BEHIND / CELL;
+                             BEHIND / MAP_CELL;
   }
 
 private:
@@ -126,7 +126,7 @@ std::vector<char> unseen_faces(const TriangleMesh& skin, const Head& head) {
           double area = 0;
           for (const int f : left)
             area += area_of(head.mesh, f);
-          if (area < LEAST_AREA)
+          if (area < LEAST_SAC)
             return unseen;
         }
   for (const int f : left)
@@ -250,7 +250,7 @@ ClosedSacs close_head_sacs(TriangleMesh& skin, std::vector<Part>& face_part) {
   int largest = -1;
   for (std::size_t f = 0; f < is_sac.size(); ++f) {
     const int piece = unseen.find(static_cast<int>(f));
-    is_sac[f] = is_sac[f] && unseen_area[piece] >= LEAST_AREA;
+    is_sac[f] = is_sac[f] && unseen_area[piece] >= LEAST_SAC;
     if (is_sac[f] && (largest < 0 || unseen_area[piece] > unseen_area[largest]))
       largest = piece;
     closed.sacs += is_sac[f] && piece == static_cast<int>(f);
@@ -261,7 +261,7 @@ ClosedSacs close_head_sacs(TriangleMesh& skin, std::vector<Part>& face_part) {
   const DisjointSets seen = alike_pieces(edges, is_sac);
   const std::vector<double> seen_area = by_area(seen, 0);
   for (const int f : head.face)
-    if (!is_sac[f] && seen_area[seen.find(f)] < LEAST_AREA)
+    if (!is_sac[f] && seen_area[seen.find(f)] < LEAST_SAC)
       is_sac[f] = 1;
 
   const std::vector<std::array<int, 2>> rim = rim_of(edges, is_sac);

@@ -95,10 +95,46 @@ TEST(MadeUpSkin, arm_pits_as_high_as_the_shoulders_let_expect_are_confirmed) {
   EXPECT_TRUE(confirmed_pits(body, learned, shape(5)).empty()); // another kind of body
 }
 
+TEST(MadeUpSkin, arm_pits_are_low_where_both_together_are) {
+  const Corrections learned = Corrections::parse(document(""), "test");
+  Body body;
+  body.scan.stature_m = 2; // a deviation is 1 cm, and pits are expected at 1.5 m
+  auto are_low = [&](double left, double right) {
+    body.landmarks["axilla_l"] = {Vec3(0.2, left, 0), 1, "gap_closes", 0.7, 0.004, {}};
+    body.landmarks["axilla_r"] = {Vec3(-0.2, right, 0), 1, "gap_closes", 0.7, 0.004, {}};
+    return pits_are_low(body, learned, shape(0));
+  };
+  EXPECT_FALSE(are_low(1.50, 1.495));
+  EXPECT_FALSE(are_low(1.51, 1.485)); // one of them alone
+  EXPECT_TRUE(are_low(1.49, 1.495));
+  body.landmarks.erase("axilla_r");
+  EXPECT_FALSE(pits_are_low(body, learned, shape(0)));
+}
+
 TEST(Corrections, of_another_make_say_nothing) {
   const Corrections learned = Corrections::parse(
       document("\"knee\": {\"makes\": [1], \"x\": " + weights("100", "0") + "}"), "test");
   EXPECT_EQ(learned.offset("knee", shape(0), 0), Vec3(Vec3::Zero()));
+}
+
+/// A mannequin is within the limit of MakeHuman's bodies and nearer to other mannequins: what only
+/// the former teach, such as where a crotch lies, is nothing to it.
+TEST(Corrections, what_one_make_teaches_holds_for_bodies_that_are_nearest_to_it) {
+  std::string text = document("");
+  text.replace(text.find("\"sd\": 500"), 9, "\"sd\": 500, \"makes\": [0]");
+  text.replace(text.find("\"points\""), 0, "\"crotch_at_an_end\": [1], ");
+  const std::string far = "20000", near = "500"; // 1e-3 deviations
+  text.replace(text.find(far), far.size(), near);
+  const Corrections learned = Corrections::parse(text, "test");
+  EXPECT_EQ(learned.membership("knee", shape(0)), 1); // of a, b is at 0.5
+  EXPECT_EQ(learned.membership("knee", shape(0.6)), 0);
+  EXPECT_NEAR(learned.membership("knee", shape(0.225)), 0.5, 1e-9);
+  EXPECT_EQ(learned.membership("elbow", shape(0)), 0);
+  EXPECT_EQ(learned.crotch_at_an_end(shape(0)), 0);
+  EXPECT_EQ(learned.crotch_at_an_end(shape(0.6)), 1);
+  EXPECT_EQ(Corrections::parse(document(""), "test").crotch_at_an_end(shape(0)), 0);
+  text.replace(text.find("\"crotch_at_an_end\": [1]"), 23, "\"crotch_at_an_end\": [2]");
+  EXPECT_THROW(Corrections::parse(text, "test"), Error);
 }
 
 TEST(Corrections, a_document_that_does_not_say_which_bodies_are_alike_is_refused) {

@@ -178,6 +178,28 @@ TEST(Dependents, arm_pits_and_merges_may_have_grown_together_where_the_legs_have
   EXPECT_EQ(reported("leg_sections_merge"), 0U);
 }
 
+/// Of a fused scan whose crotch was 56 mm too far back, between both ends of the trunk's underside,
+/// the pits were 29 mm too low and the merges 41, and nothing was reported.
+TEST(Dependents, arm_pits_may_have_grown_together_where_the_crotch_is_rounded_and_they_are_low) {
+  auto reported = [](bool pits_are_low, bool rebuilt) {
+    Body body;
+    body.scan.stature_m = 1.7;
+    body.landmarks["crotch"] = {Vec3(0, 0.8, 0), 1, "leg_sections_merge", 0.9, 0.01, {}};
+    for (const char* name : {"axilla_l", "axilla_merge_l", "axilla_back_l"})
+      body.landmarks[name] = {Vec3(0.2, 1.2, 0), 1, "gap_closes", 0.6, 0.01, {}};
+    body.scan.findings.push_back({"scan.crotch-rounded"_id, "warning", "rounded", "crotch"});
+    if (rebuilt)
+      body.scan.findings.push_back({"scan.skin-rebuilt"_id, "info", "rebuilt", "skin"});
+    const std::size_t before = body.scan.findings.size();
+    doubt_dependents(body, 0, pits_are_low);
+    EXPECT_LT(body.landmarks["crotch"].confidence, 0.5);
+    return body.scan.findings.size() - before;
+  };
+  EXPECT_EQ(reported(true, false), 3U);
+  EXPECT_EQ(reported(false, false), 0U);
+  EXPECT_EQ(reported(true, true), 0U);
+}
+
 TEST(Dependents, what_is_unsteady_or_hardly_believed_is_told) {
   Body body;
   body.scan.stature_m = 1.7;

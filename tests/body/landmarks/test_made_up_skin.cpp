@@ -56,6 +56,24 @@ TEST(MadeUpSkin, arm_pits_among_points_stay_where_they_are) {
   }
 }
 
+/// Mannequins have their crotch between both ends of the trunk's underside, where people of the
+/// other make have none, and their merges elsewhere.
+TEST(MadeUpSkin, what_another_make_teaches_is_nothing_to_a_mannequin) {
+  for (const char* name : {"f-165-a", "m-178-a"}) {
+    const test::MadeFigure& mannequin = test::mannequin(name);
+    const Body own = test::measure(mannequin.mesh).body,
+               rebuilt = test::measure(dense_points(mannequin.mesh, {}, 0)).body;
+    for (const Body* body : {&own, &rebuilt})
+      for (const Finding& finding : body->scan.findings)
+        EXPECT_NE(finding.id, "scan.crotch-rounded") << name;
+    for (const char* merge : {"axilla_merge_l", "axilla_merge_r"}) {
+      ASSERT_TRUE(own.has_landmark(merge) && rebuilt.has_landmark(merge)) << name;
+      EXPECT_LT((test::in_scan(own, merge) - test::in_scan(rebuilt, merge)).norm(), 0.012)
+          << name << " " << merge;
+    }
+  }
+}
+
 TEST(MadeUpSkin, arm_pits_that_a_rebuilt_skin_closed_are_put_higher) {
   constexpr double HOLE = 0.07; // m
   const test::MadeFigure& mannequin = test::mannequin("f-165-a");

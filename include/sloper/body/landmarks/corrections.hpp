@@ -74,6 +74,12 @@ public:
   /// doubt a place, not to put one. Empty beyond a strangeness of 2.
   std::optional<Expected> extrapolated(const std::string& place, const ShapeFeatures& features,
                                        int side) const;
+  /// Share, 0 to 1, to which a body belongs to the makes that taught an expected place: likeness()
+  /// to them, and nothing where it is nearer to another make; 0 for places that were not learned.
+  double membership(const std::string& place, const ShapeFeatures& features) const;
+  /// The same for the makes whose crotches lie at one end of the trunk's underside or the other,
+  /// and nowhere between: MakeHuman's bodies, not mannequins.
+  double crotch_at_an_end(const ShapeFeatures& features) const;
   /// Distance of a body from the nearest make over the limit that holds 97 of 100 of the make's
   /// own bodies; 0 where nothing was learned.
   double strangeness(const ShapeFeatures& features) const;
@@ -82,6 +88,7 @@ private:
   struct Weights {
     double bias = 0, sd = 0;
     std::vector<double> of_feature; ///< per standard deviation
+    std::vector<char> of_make;      ///< 1 where that make's bodies taught it
   };
   struct Feature {
     double mean = 0, sd = 1;
@@ -98,6 +105,8 @@ private:
   double scaled(const ShapeFeatures& features, int side, std::size_t k) const;
   double linear(const Weights& weights, const ShapeFeatures& features, int side) const;
   double likeness(const ShapeFeatures& features, const std::vector<char>* of_make) const;
+  double membership(const ShapeFeatures& features, const std::vector<char>& of_make) const;
+  std::vector<char> read_makes(const io::Node& entry, const char* key) const;
   void read_population(const io::Node& root);
   Weights read_weights(const io::Node& list) const;
   std::vector<Feature> m_features;
@@ -107,6 +116,7 @@ private:
   double m_outside = 1; ///< r
   std::map<std::string, Point> m_points;
   std::map<std::string, Weights> m_expected;
+  std::vector<char> m_crotch_at_an_end; ///< 1 for such makes
 };
 
 } // namespace sloper::body

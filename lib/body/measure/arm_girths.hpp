@@ -1,0 +1,22 @@
+#pragma once
+/// Wrist and elbow by the arm's girth.
+#include <optional>
+#include <sloper/body/measure/arm_trace.hpp>
+namespace sloper::body {
+
+/// Where the wrist is: behind the widest of the hand the girth falls to its least. A fist is short,
+/// and a stout forearm may be wider than it: there the widest before the deepest fall is the palm.
+/// @param least_to_palm  a wrist's girth is at most this share of the palm's
+/// @param s  stature, m
+/// @return m along the arm from the hand's tip; empty where the girth does not fall
+/// Test: tests/body/measure/test_arm_girths.cpp
+std::optional<double> wrist_by_girth(const ArmTrace& arm, double least_to_palm, double s);
+
+/// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the
+/// forearm's belly.
+/// @param s  stature, m
+/// @param wrist  m along the arm from the hand's tip
+/// @return m along the arm; empty where the girth does not rise
+std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist);
+
+} // namespace sloper::body
