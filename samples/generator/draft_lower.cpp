@@ -6,8 +6,10 @@
 /// is taken half at the side, half at the middle seam, by curves. Trousers: body rise, crotch
 /// extensions of a sixteenth and an eighth of the hip (front and back), crease in the middle of the
 /// crotch line, as in the classic trouser block (for one, Aldrich, Metric Pattern Cutting);
-/// coefficients are our own. Metres; y = 0 is the waist.
+/// what the waist is narrower than the hip is taken by the middle seams, the sides and, where that
+/// is much, a dart in each quarter; coefficients are our own. Metres; y = 0 is the waist.
 #include "draft.hpp"
+#include <algorithm>
 #include <cmath>
 #include <sloper/base/error.hpp>
 namespace sloper::samples {
@@ -19,6 +21,47 @@ constexpr double CROTCH_EASE =
 constexpr double THIGH_EASE = 0.06; // m
 constexpr double MOST_LENGTHENED = 6; // for a seam about 20 cm longer
 constexpr double STEEPEST = 0.9;      // of a side seam's length: how far it leans out
+// A side seam that comes in faster from hip to waist stands off the hip like an ear: what is more
+// is taken by a dart in the middle of the quarter's waist. Without darts trousers of 4 of 4 natural
+// bodies had ears.
+constexpr double SIDE_SLOPE = 0.12;  // of the way up
+constexpr double LEAST_DART = 0.008; // m wide
+constexpr double MOST_DART = 0.04;
+constexpr double DART_DEPTH = 0.7; // of the way from the waist to the hip
+
+/// The edges of a quarter that a waistband is sewn to: one, or two beside a dart.
+std::vector<std::string> waist_edges(const DraftPanel& quarter) {
+  const bool whole = std::any_of(quarter.edges.begin(), quarter.edges.end(),
+                                 [](const DraftEdge& e) { return e.name == "waist"; });
+  return whole ? std::vector<std::string>{"waist"}
+               : std::vector<std::string>{"waist_outer", "waist_inner"};
+}
+
+double waist_length(const DraftPanel& quarter) {
+  double length = 0;
+  for (const std::string& edge : waist_edges(quarter))
+    length += edge_length(quarter, edge);
+  return length;
+}
+
+/// Whether an edge of a band starts at the band's middle.
+bool is_from_middle(const DraftPanel& band, const std::string& edge) {
+  return band.points[edge_index(band, edge)].x() == 0;
+}
+
+/// Cuts a dart into the middle of a straight waist. @param width, depth  m
+void add_dart(DraftPanel& quarter, double width, double depth) {
+  const int at = edge_index(quarter, "waist");
+  const int n = static_cast<int>(quarter.points.size());
+  const Vec2 from = quarter.points[at], to = quarter.points[(at + 1) % n];
+  const Vec2 along = (to - from).normalized(), middle = 0.5 * (from + to);
+  const Vec2 tip = middle + depth * Vec2(-along.y(), along.x()); // the outline runs the other way
+  quarter.points.insert(quarter.points.begin() + at + 1, {Vec2(middle - 0.5 * width * along), tip,
+                                                          Vec2(middle + 0.5 * width * along)});
+  quarter.edges[at].name = "waist_outer";
+  quarter.edges.insert(quarter.edges.begin() + at + 1,
+                       {{"dart_outer", {}}, {"dart_inner", {}}, {"waist_inner", {}}});
+}
 
 /// A band of two strips, sewn at the sides; `front` and `back` are the finished lengths of its
 /// lower edge, each cut in two at the middle.
@@ -41,8 +84,25 @@ void add_waistband(Draft& d, const Measures& m, double front, double back, doubl
   for (const char* s : {"l", "r"}) {
     const std::string side = s;
     d.sew("band_front", "end_" + side, "band_back", "end_" + side);
-    d.sew("band_front", "low_" + side, "front_" + side, "waist");
-    d.sew("band_back", "low_" + side, "back_" + side, "waist");
+    for (const std::string which : {"front", "back"}) {
+      if (waist_edges(d.panel(which + "_" + side)).size() == 1) {
+        d.sew("band_" + which, "low_" + side, which + "_" + side, "waist");
+        continue;
+      }
+      const DraftPanel& below = d.panel(which + "_" + side);
+      const double outer = edge_length(below, "waist_outer"),
+                   inner = edge_length(below, "waist_inner");
+      const auto band = std::find_if(d.panels.begin(), d.panels.end(), [&](const DraftPanel& p) {
+        return p.name == "band_" + which;
+      });
+      // The left half runs from the middle to the side, the right one from the side to the middle.
+      const bool outwards = is_from_middle(*band, "low_" + side);
+      const std::string low = "low_" + side;
+      split_edge(*band, low, (outwards ? inner : outer) / (inner + outer),
+                 low + (outwards ? "_inner" : "_outer"), low + (outwards ? "_outer" : "_inner"));
+      for (const std::string part : {"_outer", "_inner"})
+        d.sew("band_" + which, low + part, which + "_" + side, "waist" + part);
+    }
   }
 }
 
@@ -133,6 +193,11 @@ Draft draft_trousers(const Measures& m) {
                y_hip = -(m.waist_to_hip - 0.5 * band), y_crotch = -rise;
   const double y_knee = y_crotch - 0.46 * m.inside_leg, y_hem = y_crotch - leg;
   const double waist = (m.waist + 0.02) / 4, hip = (m.hip + 0.07) / 4;
+  /// How wide a dart takes up what the side seam of a leg does not.
+  const auto dart_of = [&](double at_hip, double lean) {
+    const double width = at_hip - lean - waist - SIDE_SLOPE * -y_hip;
+    return width < LEAST_DART ? 0 : std::min(width, MOST_DART);
+  };
   const double knee = 0.5 * (m.knee + 0.09), hem = 0.5 * (m.ankle + 0.17);
   struct Leg {
     double hip, extension, wide, lean; ///< quarter of the hip, crotch extension, extra width at
@@ -151,7 +216,8 @@ Draft draft_trousers(const Measures& m) {
         hip_middle(0, y_hip);
     const double crease = 0.5 * (l.hip - l.extension), half_knee = 0.5 * (knee + 2 * l.wide),
                  half_hem = 0.5 * (hem + 2 * l.wide);
-    const Vec2 waist_middle(l.lean, back_rise), waist_side(l.lean + waist, side_rise);
+    const double dart = dart_of(l.hip, l.lean);
+    const Vec2 waist_middle(l.lean, back_rise), waist_side(l.lean + waist + dart, side_rise);
     const Vec2 knee_in(crease - half_knee, y_knee), knee_out(crease + half_knee, y_knee);
     const double above = y_hip - y_knee, step = y_crotch - y_knee;
     p.points = {{crease - half_hem, y_hem},
@@ -163,19 +229,22 @@ Draft draft_trousers(const Measures& m) {
                 hip_middle,
                 crotch,
                 knee_in};
-    p.edges = {
-        {"hem", {}},
-        {"side_low", {}},
-        {"side_thigh", {knee_out + Vec2(0, 0.35 * above), hip_side - Vec2(0, 0.35 * above)}},
-        {"side_hip", {hip_side - Vec2(0, 0.4 * y_hip), waist_side + Vec2(0.012, 0.35 * y_hip)}},
-        {"waist", {}},
-        {"middle", {}},
-        {"crotch",
-         {hip_middle + Vec2(-0.05 * l.lean, 0.65 * (y_crotch - y_hip)),
-          crotch + Vec2(0.55 * l.extension, 0)}},
-        {"inside_thigh",
-         {crotch + Vec2(0.30 * l.extension, -0.30 * step), knee_in + Vec2(0, 0.35 * step)}},
-        {"inside_low", {}}};
+    p.edges = {{"hem", {}},
+               {"side_low", {}},
+               {"side_thigh", {knee_out + Vec2(0, 0.35 * above), hip_side - Vec2(0, 0.35 * above)}},
+               {"side_hip",
+                {hip_side - Vec2(0, 0.45 * y_hip),
+                 waist_side + 0.33 * (hip_side - waist_side) + Vec2(0.004, 0)}},
+               {"waist", {}},
+               {"middle", {}},
+               {"crotch",
+                {hip_middle + Vec2(-0.05 * l.lean, 0.65 * (y_crotch - y_hip)),
+                 crotch + Vec2(0.55 * l.extension, 0)}},
+               {"inside_thigh",
+                {crotch + Vec2(0.30 * l.extension, -0.30 * step), knee_in + Vec2(0, 0.35 * step)}},
+               {"inside_low", {}}};
+    if (dart > 0)
+      add_dart(p, dart, DART_DEPTH * -y_hip);
     return p;
   };
   // The seam between the legs goes around the body with ease, and the leg around the thigh: by
@@ -235,7 +304,10 @@ Draft draft_trousers(const Measures& m) {
     d.sew("front_l", edge, "front_r", edge);
     d.sew("back_l", edge, "back_r", edge);
   }
-  add_waistband(d, m, 2 * edge_length(front, "waist"), 2 * edge_length(back, "waist"), band);
+  for (const std::string quarter : {"front_l", "front_r", "back_l", "back_r"})
+    if (waist_edges(d.panel(quarter)).size() > 1)
+      d.sew(quarter, "dart_outer", quarter, "dart_inner");
+  add_waistband(d, m, 2 * waist_length(front), 2 * waist_length(back), band);
   return d;
 }
 

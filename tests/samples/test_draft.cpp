@@ -113,10 +113,37 @@ TEST(draft, trousers_go_around_the_thigh_and_between_the_legs_of_the_body_they_a
       for (const DraftPanel* p : {&front, &back})
         length += edge_length(*p, "middle") + edge_length(*p, "crotch");
       EXPECT_GT(length, m.crotch()) << crotch_length;
-      EXPECT_GT(front.points[3].x() - front.points[7].x() + back.points[3].x() - back.points[7].x(),
-                thigh);
+      double around = 0; // at the hip from the side to the end of the crotch, before and behind
+      for (const DraftPanel* p : {&front, &back})
+        around += p->points[edge_index(*p, "side_hip")].x() -
+                  p->points[edge_index(*p, "inside_thigh")].x();
+      EXPECT_GT(around, thigh);
       EXPECT_TRUE(draft_faults(d).empty()) << joined(draft_faults(d));
     }
+}
+
+TEST(draft, sides_of_trousers_come_in_gently_and_darts_take_the_rest) {
+  for (const double waist : {0.66, 0.74, 0.98}) {
+    Measures m;
+    m.waist = waist;
+    const Draft d = draft_trousers(m);
+    for (const char* name : {"front_l", "back_r"}) {
+      const DraftPanel& p = d.panel(name);
+      const auto n = static_cast<int>(p.points.size());
+      const int side = edge_index(p, "side_hip");
+      const Vec2 seam = p.points[(side + 1) % n] - p.points[side];
+      EXPECT_LT(-seam.x(), 0.2 * seam.y()) << name << waist;
+      const bool darts = n > 9;
+      EXPECT_EQ(darts, waist < 0.9) << name << waist;
+      if (darts) {
+        EXPECT_NEAR(edge_length(p, "dart_outer"), edge_length(p, "dart_inner"), 1e-9);
+      }
+    }
+    EXPECT_NEAR(edge_length(d.panel("band_front"), "top") +
+                    edge_length(d.panel("band_back"), "top"),
+                waist, 0.03);
+    EXPECT_TRUE(draft_faults(d).empty()) << joined(draft_faults(d));
+  }
 }
 
 TEST(draft, armholes_end_below_the_arm_pits_of_the_tall) {
