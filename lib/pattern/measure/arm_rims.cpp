@@ -66,9 +66,8 @@ public:
     for (auto& [arm, open] : own) {
       if (!m_hanging.count(arm))
         continue; // a part of its own
-      std::stable_sort(open.begin(), open.end(), [](const ClothRim* a, const ClothRim* b) {
-        return a->length > b->length;
-      });
+      std::stable_sort(open.begin(), open.end(),
+                       [](const ClothRim* a, const ClothRim* b) { return a->length > b->length; });
       for (std::size_t k = 1; k < open.size(); ++k)
         if (open[k]->length > LEAST_OPEN)
           out.push_back(finding(shares_of(*open[k]),
@@ -88,8 +87,8 @@ private:
     for (std::size_t k = 0; k < n; ++k) {
       const RimVertex& v = rim.vertices[k];
       const int panel = panel_of_vertex(m_mesh, v.leaving);
-      const Vec2 middle = 0.5 * (m_mesh.pattern[v.leaving] +
-                                 m_mesh.pattern[rim.vertices[(k + 1) % n].arriving]);
+      const Vec2 middle =
+          0.5 * (m_mesh.pattern[v.leaving] + m_mesh.pattern[rim.vertices[(k + 1) % n].arriving]);
       out.by_panel[panel] += v.to_next;
       out.by_edge[{panel, edge_nearest_to(m_pattern.panels[panel], middle)}] += v.to_next;
     }

@@ -294,7 +294,8 @@ private:
       for (const RimEdge& e : r.edges)
         panels.insert(e.panel);
       const double share = strip.long_side->length / r.length;
-      if (is_wrist(r) || r.has(p) || panels.size() < 2 || share < SHORTEST_BAND || share > LONGEST_BAND)
+      if (is_wrist(r) || r.has(p) || panels.size() < 2 || share < SHORTEST_BAND ||
+          share > LONGEST_BAND)
         continue;
       if (!rim || (r.length < rim->length) == neck)
         rim = std::move(r);

@@ -331,9 +331,8 @@ private:
     std::array<Edges, 2> holes;
     for (std::size_t i = 0; i < rims.size(); ++i)
       for (std::size_t k = i + 1; k < rims.size(); ++k) {
-        const bool of_sleeve = std::any_of(own.begin(), own.end(), [&](int p) {
-          return rims[i].has(p) || rims[k].has(p);
-        });
+        const bool of_sleeve = std::any_of(own.begin(), own.end(),
+                                           [&](int p) { return rims[i].has(p) || rims[k].has(p); });
         if (of_sleeve || !alike(rims[i], rims[k]))
           continue;
         const double ease = std::log(cap / rims[i].length);
@@ -349,10 +348,10 @@ private:
     if (holes[0].empty())
       return false;
     const double shoulder[2] = {*shoulder_of(holes[0]), *shoulder_of(holes[1])};
-    const double straight = mismatch(one, holes[0], shoulder[0]) +
-                            mismatch(other, holes[1], shoulder[1]),
-                 crossed = mismatch(one, holes[1], shoulder[1]) +
-                           mismatch(other, holes[0], shoulder[0]);
+    const double straight =
+                     mismatch(one, holes[0], shoulder[0]) + mismatch(other, holes[1], shoulder[1]),
+                 crossed =
+                     mismatch(one, holes[1], shoulder[1]) + mismatch(other, holes[0], shoulder[0]);
     const bool sure = one.named && other.named && best < SURE_EASE - USUAL_EASE &&
                       is_certain(m_guesses, seams, holes[0]) &&
                       is_certain(m_guesses, seams, holes[1]);
@@ -399,7 +398,8 @@ private:
     const auto seam_of = [&](const char* which, double from, double to, double rim_from,
                              double rim_to) {
       Seam seam;
-      seam.name = panel(sleeve.panel()).name + " cap " + which + "-" + panel(rim.front().panel).name;
+      seam.name =
+          panel(sleeve.panel()).name + " cap " + which + "-" + panel(rim.front().panel).name;
       seam.a = stretch(sleeve.cap, from, to);
       seam.b = turned(stretch(rim, rim_from, rim_to));
       if (std::log((to - from) / (rim_to - rim_from)) > MOST_EASE)

@@ -109,7 +109,7 @@ std::vector<SleeveHalves> sleeve_halves(const Pattern& pattern) {
           !is_square_hem(hem) || !is_square_hem(other))
         continue;
       const HalvesMet found{&hem, &other, meet(pattern, sides[hem.after], sides[other.before]),
-                               meet(pattern, sides[other.after], sides[hem.before])};
+                            meet(pattern, sides[other.after], sides[hem.before])};
       HalvesMet& best = longest[{hem.panel, other.panel}];
       if (found.after.own > 0 && found.before.own > 0 && found.length() > best.length())
         best = found;
@@ -120,8 +120,7 @@ std::vector<SleeveHalves> sleeve_halves(const Pattern& pattern) {
       continue;
     const SeamSide &hem = *found.hem, &other = *found.other;
     const Seam after = seam_from_hem(pattern, sides[hem.after], sides[other.before], found.after),
-               before =
-                   seam_from_hem(pattern, sides[other.after], sides[hem.before], found.before);
+               before = seam_from_hem(pattern, sides[other.after], sides[hem.before], found.before);
     const bool is_over = found.after.length > found.before.length;
     out.push_back({is_over ? after : before, is_over ? before : after, {hem.panel, hem.first}});
   }
