@@ -326,10 +326,12 @@ bool SettlePhase::open_knots(SimContext& context) {
   return true;
 }
 
+/// What is left of them then is let pass again at once, within twice the reach.
 void SettlePhase::close_knots(SimContext& context) {
   m_state.knots_close_at = -1;
   context.supports.close_tangles();
   m_state.calm = 0;
+  open_knots(context);
 }
 
 void SettlePhase::restart_calm(SimContext& context) {
