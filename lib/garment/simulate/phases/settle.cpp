@@ -15,6 +15,8 @@ constexpr int MAX_UNTANGLINGS =
     8; // of cloth that crosses itself, half of them before it is at rest
 // With DrapeRequest::only_clear, in place of those without CLEARING:
 constexpr int MAX_UNTANGLINGS_CLEARING = 2;
+// Found on one random GarmentCode of 38, the only one that ended with crossings: 43 pairs, then
+// none. With a return to rest between openings 19 were left at the step limit.
 constexpr int MAX_KNOT_OPENINGS = 3;
 constexpr int KNOT_STEPS = 60;      // in which a knot may pass through itself
 constexpr double KNOT_REACH = 0.04; // m around what crosses, at first; then twice, four times
