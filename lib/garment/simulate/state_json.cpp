@@ -174,6 +174,10 @@ void SettlePhase::State::write(io::Json& state) const {
   state["looked_from"] = io::flat_points(probe_position);
   state["free_steps"] = dynamic_steps;
   state["velocity"] = io::flat_points(velocity);
+  if (knots_opened > 0) {
+    state["knots_opened"] = knots_opened;
+    state["knots_close_at"] = knots_close_at;
+  }
 }
 
 SettlePhase::State SettlePhase::State::read(const io::Node& node, std::size_t n_particles) {
@@ -189,6 +193,10 @@ SettlePhase::State SettlePhase::State::read(const io::Node& node, std::size_t n_
   state.start_height = io::read_numbers(node.at("start_height"));
   if (node.has("thawed_at"))
     state.release_height_m = node.at("thawed_at").number();
+  if (node.has("knots_opened")) {
+    state.knots_opened = node.at("knots_opened").integer();
+    state.knots_close_at = node.at("knots_close_at").integer();
+  }
   if (node.has("looked_at")) { // older ones: from here on
     state.probe_step = node.at("looked_at").integer();
     state.probe_position = io::read_flat_points(node.at("looked_from"));

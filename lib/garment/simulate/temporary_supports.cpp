@@ -82,6 +82,18 @@ void TemporarySupports::find_ends(LimbEnds ends) {
     m_state.held.push_back(pin.target);
 }
 
+std::vector<char> TemporarySupports::near_crossings(const std::vector<std::array<int, 2>>& crossing,
+                                                    const std::vector<Triangle>& triangles,
+                                                    double reach) const {
+  std::vector<char> near(m_cloth.garment().position.size(), 0);
+  for (const auto& pair : crossing)
+    for (int f : pair)
+      for (int i : triangles[f])
+        near[i] = 1;
+  grow(near, triangles, static_cast<int>(std::lround(reach / m_cloth.mean_edge())));
+  return near;
+}
+
 void TemporarySupports::find_tangles() {
   m_state.tangles.clear();
   if (!m_cloth.is_active("self_contact"))
@@ -91,12 +103,7 @@ void TemporarySupports::find_tangles() {
   const collision::TriangleTree tree(position, triangles);
   const auto crossing = collision::self_intersections(position, triangles, tree);
   const double edge = m_cloth.mean_edge();
-  std::vector<char> near(position.size(), 0);
-  for (const auto& pair : crossing)
-    for (int f : pair)
-      for (int i : triangles[f])
-        near[i] = 1;
-  grow(near, triangles, static_cast<int>(std::lround(TANGLE_REACH / edge)));
+  const std::vector<char> near = near_crossings(crossing, triangles, TANGLE_REACH);
   std::vector<Triangle> patches;
   for (const Triangle& t : triangles)
     if (near[t[0]] && near[t[1]] && near[t[2]])
@@ -129,12 +136,31 @@ void TemporarySupports::apply() {
       m_hold = &m_cloth.solver().emplace<cloth::PinsEffect>(std::move(pins));
     }
   }
+  let_tangles_pass();
+}
+
+void TemporarySupports::let_tangles_pass() {
   if (m_state.tangles.empty() || !m_cloth.self_contact())
     return;
   std::vector<char> passes(m_cloth.garment().position.size(), 0);
   for (int i : m_state.tangles)
     passes[i] = 1;
   m_cloth.self_contact()->let_pass(std::move(passes));
+}
+
+void TemporarySupports::open_knots(double reach) {
+  const std::vector<Vec3>& position = m_cloth.garment().position;
+  const std::vector<Triangle> triangles = m_cloth.garment().particle_triangles();
+  const collision::TriangleTree tree(position, triangles);
+  const std::vector<char> near =
+      near_crossings(collision::self_intersections(position, triangles, tree), triangles, reach);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (near[i])
+      m_state.tangles.push_back(static_cast<int>(i));
+  m_telemetry.add_repair(
+      "cloth at rest crossed itself still: " + std::to_string(m_state.tangles.size()) +
+      " particles passed through each other for a while");
+  let_tangles_pass();
 }
 
 void TemporarySupports::release_ends() {

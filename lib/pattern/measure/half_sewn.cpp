@@ -1,3 +1,4 @@
+#include <pattern/measure/arm_rims.hpp>
 #include <pattern/measure/cloth_rims.hpp>
 #include <pattern/panel_words.hpp>
 #include <sloper/base/units.hpp>
@@ -44,7 +45,8 @@ double open_from(const ClothRim& rim, std::size_t k, bool onwards) {
 
 std::vector<PatternFinding> half_sewn(const Pattern& pattern, const PanelMesh& mesh) {
   std::vector<PatternFinding> out;
-  for (const ClothRim& rim : cloth_rims(mesh)) {
+  const std::vector<ClothRim> rims = cloth_rims(mesh);
+  for (const ClothRim& rim : rims) {
     const std::size_t n = rim.vertices.size();
     if (std::count_if(rim.vertices.begin(), rim.vertices.end(), turns) < 2)
       continue; // the opening of a hood
@@ -71,6 +73,8 @@ std::vector<PatternFinding> half_sewn(const Pattern& pattern, const PanelMesh& m
                          "to the other?"});
     }
   }
+  const std::vector<PatternFinding> arms = half_sewn_arms(pattern, mesh, rims);
+  out.insert(out.end(), arms.begin(), arms.end());
   return out;
 }
 

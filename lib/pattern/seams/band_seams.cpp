@@ -234,6 +234,11 @@ private:
     return strip;
   }
 
+  bool is_wrist(const Rim& rim) const {
+    return std::all_of(rim.edges.begin(), rim.edges.end(),
+                       [&](const RimEdge& e) { return says_sleeve(words(e.panel)); });
+  }
+
   /// Cuffs, cut as a pair, on the ends of two sleeves. Those of knit fabrics are cut double, so
   /// they are not slim, and are stretched more than a neck's rib.
   void add_cuffs() {
@@ -253,9 +258,7 @@ private:
     for (const Rim& r : rims_of(m_pattern, seams)) {
       const double share = strip_of(cuffs[0], SLIM_CUFF)->long_side->length / r.length;
       const Edges around = behind_longest_seam(m_pattern, r, seams);
-      if (share > SHORTEST_CUFF && share < LONGEST_BAND && !around.empty() &&
-          std::all_of(r.edges.begin(), r.edges.end(),
-                      [&](const RimEdge& e) { return says_sleeve(words(e.panel)); }))
+      if (share > SHORTEST_CUFF && share < LONGEST_BAND && !around.empty() && is_wrist(r))
         ends.push_back(around);
     }
     if (ends.size() != 2 || std::abs(std::log(length_of(ends[0]) / length_of(ends[1]))) > SAME_END)
@@ -291,7 +294,8 @@ private:
       for (const RimEdge& e : r.edges)
         panels.insert(e.panel);
       const double share = strip.long_side->length / r.length;
-      if (r.has(p) || panels.size() < 2 || share < SHORTEST_BAND || share > LONGEST_BAND)
+      if (is_wrist(r) || r.has(p) || panels.size() < 2 || share < SHORTEST_BAND ||
+          share > LONGEST_BAND)
         continue;
       if (!rim || (r.length < rim->length) == neck)
         rim = std::move(r);

@@ -4,6 +4,7 @@
 #include <pattern/seams/rims.hpp>
 #include <pattern/seams/ring_bands.hpp>
 #include <pattern/seams/seam_sides.hpp>
+#include <pattern/seams/sleeve_halves.hpp>
 #include <sloper/base/units.hpp>
 
 #include <algorithm>
@@ -26,13 +27,21 @@ constexpr double SURE_EASE = 0.1; // beyond that, it is asked
 constexpr double NEAR_SHOULDER =
     0.04; // of the cap: a corner of its outline so near to where the shoulder comes is meant
 constexpr double RIM_SCORE = 0.95;
+// Pieces that are called halves of a sleeve go nowhere else: gathers of 1 to 1.5 are set in too.
+constexpr double MOST_EASE_OF_HALVES = 0.4;
+constexpr double GATHERED_SCORE = 0.6;
+constexpr double WRONG_HALVES = 1; // of the cap: a front half on a back
 
-/// A piece that closes on itself.
+/// A piece that closes on itself, or the two halves of a sleeve.
 struct Sleeve {
-  int panel = 0;
-  Edges cap;                   ///< along the outline, from the one side of its seam to the other
-  std::optional<Seam> closure; ///< that is to be added
+  std::set<int> panels;
+  Edges cap; ///< along the outline, from the one side of its seam under the arm to the other
+  std::vector<Seam> closures; ///< that are to be added
   bool named = false;
+  std::optional<double> top; ///< m along the cap: where two halves meet
+
+  int panel() const { return *panels.begin(); }
+  double most_ease() const { return top ? MOST_EASE_OF_HALVES : MOST_EASE; }
 };
 
 class RimSeams {
@@ -60,9 +69,18 @@ private:
         return true;
     return false;
   }
-  bool sewn_for_certain(int p) const {
+  bool mirrored(const Sleeve& one, const Sleeve& other) const {
+    return one.panels.size() == other.panels.size() &&
+           std::all_of(one.panels.begin(), one.panels.end(), [&](int p) {
+             return std::any_of(other.panels.begin(), other.panels.end(),
+                                [&](int q) { return mirrored(p, q); });
+           });
+  }
+  /// Whether one of some panels is sewn to another one.
+  bool sewn_for_certain(const std::set<int>& panels) const {
     return std::any_of(m_guesses.begin(), m_guesses.end(), [&](const SeamGuess& g) {
-      return g.certain && (g.seam.a[0].panel == p) != (g.seam.b[0].panel == p);
+      return g.certain &&
+             (panels.count(g.seam.a[0].panel) > 0) != (panels.count(g.seam.b[0].panel) > 0);
     });
   }
 
@@ -95,7 +113,7 @@ private:
   std::optional<Sleeve> sleeve_of(int p) const {
     const bool half = name_suggests_front(words(p)) || says_back(words(p));
     Sleeve sleeve;
-    sleeve.panel = p;
+    sleeve.panels = {p};
     sleeve.named = says_sleeve(words(p)) && !half;
     if (says_anything(words(p)) && !sleeve.named)
       return std::nullopt;
@@ -144,9 +162,50 @@ private:
                      true);
       seam.b = whole(
           edges_between(m_pattern, p, second->first, next_edge(panel(p), second->last())), false);
-      sleeve.closure = seam;
+      sleeve.closures = {seam};
     }
     return sleeve;
+  }
+
+  /// Two pieces that are called halves of a sleeve, once they are sewn to each other.
+  std::optional<Sleeve> sleeve_of(const SleeveHalves& halves) const {
+    const int p = halves.over.a[0].panel, q = halves.over.b[0].panel;
+    const std::vector<Seam> seams = {halves.over, halves.under};
+    Sleeve sleeve;
+    sleeve.panels = {p, q};
+    sleeve.named = true;
+    for (const Rim& rim : rims_of(m_pattern, seams)) {
+      const bool hem = std::any_of(rim.edges.begin(), rim.edges.end(), [&](const RimEdge& e) {
+        return e.panel == halves.hem.panel && e.edge == halves.hem.edge;
+      });
+      if (rim.has(p) && rim.has(q) && !hem)
+        sleeve.cap = rim.edges;
+    }
+    const auto under = std::find_if(sleeve.cap.begin(), sleeve.cap.end(),
+                                    [](const RimEdge& e) { return e.seam_after == 1; });
+    if (under != sleeve.cap.end())
+      std::rotate(sleeve.cap.begin(), under + 1, sleeve.cap.end());
+    double at = 0;
+    for (const RimEdge& e : sleeve.cap) {
+      at += e.length;
+      if (e.seam_after == 0)
+        sleeve.top = at;
+    }
+    if (!sleeve.top)
+      return std::nullopt;
+    for (const Seam& seam : seams) {
+      const auto is_it = [&](const SeamGuess& g) {
+        return g.certain && touches_all(g.seam, seam.a) && touches_all(g.seam, seam.b);
+      };
+      if (std::none_of(m_guesses.begin(), m_guesses.end(), is_it))
+        sleeve.closures.push_back(seam);
+    }
+    return sleeve;
+  }
+  static bool touches_all(const Seam& seam, const std::vector<Run>& side) {
+    return std::all_of(side.begin(), side.end(), [&](const Run& run) {
+      return takes_any(seam, {{run.panel, run.edge, 0, -1}});
+    });
   }
 
   /// Where front and back meet at the shoulder, m along the rim; the first of its seams.
@@ -175,13 +234,19 @@ private:
   }
 
   /// How badly a cap goes into an armhole: by the lengths of its halves, and their hollows.
-  double mismatch(const Edges& cap, const Edges& rim, double shoulder) const {
+  double mismatch(const Sleeve& sleeve, const Edges& rim, double shoulder) const {
+    const Edges& cap = sleeve.cap;
     const double whole = length_of(cap), of_rim = length_of(rim);
-    const double split = crown(cap, 0.5 * whole);
+    const double split = sleeve.top ? *sleeve.top : crown(cap, 0.5 * whole);
     const double last_part = of_rim - shoulder; // that the cap's first half goes with
     double cost = std::abs(split / whole - last_part / of_rim);
     const bool ends_on_back = says_back(words(rim.back().panel)),
                ends_on_front = name_suggests_front(words(rim.back().panel));
+    if (sleeve.top) { // the words of its halves
+      const bool fits = ends_on_back ? says_back(words(cap.front().panel))
+                                     : name_suggests_front(words(cap.front().panel));
+      return ends_on_back == ends_on_front || fits ? cost : cost + WRONG_HALVES;
+    }
     if (ends_on_back != ends_on_front) {
       const double first = hollow(cap, 0, split), second = hollow(cap, split, whole);
       cost += 0.05 * (ends_on_front ? second - first : first - second);
@@ -211,12 +276,16 @@ private:
   void set_in_sleeves() {
     std::vector<Sleeve> sleeves;
     for (int p = 0; p < std::ssize(m_pattern.panels); ++p)
-      if (!sewn_for_certain(p))
+      if (!sewn_for_certain({p}))
         if (auto s = sleeve_of(p))
+          sleeves.push_back(*s);
+    for (const SleeveHalves& halves : sleeve_halves(m_pattern))
+      if (!sewn_for_certain({halves.over.a[0].panel, halves.over.b[0].panel}))
+        if (auto s = sleeve_of(halves))
           sleeves.push_back(*s);
     for (std::size_t i = 0; i < sleeves.size(); ++i)
       for (std::size_t k = i + 1; k < sleeves.size(); ++k)
-        if (mirrored(sleeves[i].panel, sleeves[k].panel) && set_in(sleeves[i], sleeves[k]))
+        if (mirrored(sleeves[i], sleeves[k]) && set_in(sleeves[i], sleeves[k]))
           return;
   }
 
@@ -253,7 +322,8 @@ private:
   }
 
   bool set_in(const Sleeve& one, const Sleeve& other) {
-    const std::set<int> own = {one.panel, other.panel};
+    std::set<int> own = one.panels;
+    own.insert(other.panels.begin(), other.panels.end());
     const std::vector<Seam> seams = likely_seams(m_guesses, own);
     const std::vector<Rim> rims = rims_of(m_pattern, seams);
     const double cap = length_of(one.cap);
@@ -261,11 +331,12 @@ private:
     std::array<Edges, 2> holes;
     for (std::size_t i = 0; i < rims.size(); ++i)
       for (std::size_t k = i + 1; k < rims.size(); ++k) {
-        if (rims[i].has(one.panel) || rims[k].has(one.panel) || rims[i].has(other.panel) ||
-            rims[k].has(other.panel) || !alike(rims[i], rims[k]))
+        const bool of_sleeve = std::any_of(own.begin(), own.end(),
+                                           [&](int p) { return rims[i].has(p) || rims[k].has(p); });
+        if (of_sleeve || !alike(rims[i], rims[k]))
           continue;
         const double ease = std::log(cap / rims[i].length);
-        if (ease < LEAST_EASE || ease > MOST_EASE || std::abs(ease - USUAL_EASE) >= best)
+        if (ease < LEAST_EASE || ease > one.most_ease() || std::abs(ease - USUAL_EASE) >= best)
           continue;
         const Edges a = behind_longest_seam(m_pattern, rims[i], seams),
                     b = behind_longest_seam(m_pattern, rims[k], seams);
@@ -277,10 +348,10 @@ private:
     if (holes[0].empty())
       return false;
     const double shoulder[2] = {*shoulder_of(holes[0]), *shoulder_of(holes[1])};
-    const double straight = mismatch(one.cap, holes[0], shoulder[0]) +
-                            mismatch(other.cap, holes[1], shoulder[1]),
-                 crossed = mismatch(one.cap, holes[1], shoulder[1]) +
-                           mismatch(other.cap, holes[0], shoulder[0]);
+    const double straight =
+                     mismatch(one, holes[0], shoulder[0]) + mismatch(other, holes[1], shoulder[1]),
+                 crossed =
+                     mismatch(one, holes[1], shoulder[1]) + mismatch(other, holes[0], shoulder[0]);
     const bool sure = one.named && other.named && best < SURE_EASE - USUAL_EASE &&
                       is_certain(m_guesses, seams, holes[0]) &&
                       is_certain(m_guesses, seams, holes[1]);
@@ -311,23 +382,31 @@ private:
     });
   }
 
-  void add(Seam seam, bool sure) {
-    m_guesses.push_back(rim_guess(std::move(seam), sure, RIM_SCORE));
+  void add(Seam seam, bool sure, double score) {
+    m_guesses.push_back(rim_guess(std::move(seam), sure, score));
   }
 
   /// The whole cap as one seam around the armhole, parted at the shoulder.
   void add_sleeve(const Sleeve& sleeve, const Edges& rim, double shoulder, bool sure) {
     const double cap = length_of(sleeve.cap), hole = length_of(rim);
-    const double split = crown(sleeve.cap, cap * (hole - shoulder) / hole);
-    if (sleeve.closure)
-      add(*sleeve.closure, sure);
+    const double split =
+        sleeve.top ? *sleeve.top : crown(sleeve.cap, cap * (hole - shoulder) / hole);
+    const bool gathered = std::log(cap / hole) > MOST_EASE;
+    const double score = gathered ? GATHERED_SCORE : RIM_SCORE;
+    for (const Seam& seam : sleeve.closures)
+      add(seam, sure, score);
     const auto seam_of = [&](const char* which, double from, double to, double rim_from,
                              double rim_to) {
       Seam seam;
-      seam.name = panel(sleeve.panel).name + " cap " + which + "-" + panel(rim.front().panel).name;
+      seam.name =
+          panel(sleeve.panel()).name + " cap " + which + "-" + panel(rim.front().panel).name;
       seam.a = stretch(sleeve.cap, from, to);
       seam.b = turned(stretch(rim, rim_from, rim_to));
-      add(std::move(seam), sure);
+      if (std::log((to - from) / (rim_to - rim_from)) > MOST_EASE)
+        seam.kind = "gather";
+      if (sleeve.top)
+        seam.name = panel(seam.a[0].panel).name + " cap-" + panel(seam.b[0].panel).name;
+      add(std::move(seam), sure, score);
     };
     seam_of("first", 0, split, shoulder, hole);
     seam_of("second", split, cap, 0, shoulder);

@@ -43,7 +43,7 @@ SidesMet meet(const Pattern& pattern, const SeamSide& from_hem, const SeamSide& 
 }
 
 /// A hem of each piece, and the seams from there on.
-struct SleeveHalves {
+struct HalvesMet {
   const SeamSide *hem = nullptr, *other = nullptr;
   SidesMet after, before; ///< the hem
   double length() const { return after.length + before.length; }
@@ -78,35 +78,6 @@ Seam seam_from_hem(const Pattern& pattern, const SeamSide& after, const SeamSide
   return seam;
 }
 
-std::vector<Seam> sleeve_seams(const Pattern& pattern) {
-  std::vector<Words> words;
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-    words.push_back(words_of(pattern, p));
-  const std::vector<SeamSide> sides =
-      seam_sides(pattern, sharp_corners(pattern, units::radians(SHARP_CORNER)), 0);
-  std::map<std::pair<int, int>, SleeveHalves> longest; // by panels
-  for (const SeamSide& hem : sides)
-    for (const SeamSide& other : sides) {
-      if (hem.panel >= other.panel || !say_sleeve_halves(words[hem.panel], words[other.panel]) ||
-          !is_square_hem(hem) || !is_square_hem(other))
-        continue;
-      const SleeveHalves found{&hem, &other, meet(pattern, sides[hem.after], sides[other.before]),
-                               meet(pattern, sides[other.after], sides[hem.before])};
-      SleeveHalves& best = longest[{hem.panel, other.panel}];
-      if (found.after.own > 0 && found.before.own > 0 && found.length() > best.length())
-        best = found;
-    }
-  std::vector<Seam> out;
-  for (const auto& [panels, found] : longest) {
-    if (!found.hem)
-      continue;
-    const SeamSide &hem = *found.hem, &other = *found.other;
-    out.push_back(seam_from_hem(pattern, sides[hem.after], sides[other.before], found.after));
-    out.push_back(seam_from_hem(pattern, sides[other.after], sides[hem.before], found.before));
-  }
-  return out;
-}
-
 bool has_run(const Seam& seam, const Run& run) {
   const auto is_it = [&](const Run& r) { return r.panel == run.panel && r.edge == run.edge; };
   return std::any_of(seam.a.begin(), seam.a.end(), is_it) ||
@@ -125,8 +96,44 @@ bool has_any(const Seam& seam, const Seam& other) {
 
 } // namespace
 
+std::vector<SleeveHalves> sleeve_halves(const Pattern& pattern) {
+  std::vector<Words> words;
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p)
+    words.push_back(words_of(pattern, p));
+  const std::vector<SeamSide> sides =
+      seam_sides(pattern, sharp_corners(pattern, units::radians(SHARP_CORNER)), 0);
+  std::map<std::pair<int, int>, HalvesMet> longest; // by panels
+  for (const SeamSide& hem : sides)
+    for (const SeamSide& other : sides) {
+      if (hem.panel >= other.panel || !say_sleeve_halves(words[hem.panel], words[other.panel]) ||
+          !is_square_hem(hem) || !is_square_hem(other))
+        continue;
+      const HalvesMet found{&hem, &other, meet(pattern, sides[hem.after], sides[other.before]),
+                            meet(pattern, sides[other.after], sides[hem.before])};
+      HalvesMet& best = longest[{hem.panel, other.panel}];
+      if (found.after.own > 0 && found.before.own > 0 && found.length() > best.length())
+        best = found;
+    }
+  std::vector<SleeveHalves> out;
+  for (const auto& [panels, found] : longest) {
+    if (!found.hem)
+      continue;
+    const SeamSide &hem = *found.hem, &other = *found.other;
+    const Seam after = seam_from_hem(pattern, sides[hem.after], sides[other.before], found.after),
+               before = seam_from_hem(pattern, sides[other.after], sides[hem.before], found.before);
+    const bool is_over = found.after.length > found.before.length;
+    out.push_back({is_over ? after : before, is_over ? before : after, {hem.panel, hem.first}});
+  }
+  return out;
+}
+
 void offer_sleeve_halves(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
-  for (const Seam& seam : sleeve_seams(pattern)) {
+  std::vector<Seam> seams;
+  for (const SleeveHalves& halves : sleeve_halves(pattern)) {
+    seams.push_back(halves.over);
+    seams.push_back(halves.under);
+  }
+  for (const Seam& seam : seams) {
     const bool is_taken = std::any_of(guesses.begin(), guesses.end(), [&](const SeamGuess& g) {
       const bool is_it = has_all(g.seam, seam.a) && has_all(g.seam, seam.b);
       return is_it || (g.certain && has_any(g.seam, seam));

@@ -15,7 +15,8 @@ constexpr double EDGE = 0.03; // m
 /// to the right of the drawing, b to the left.
 class Shirt {
 public:
-  Shirt() {
+  /// @param tip_cm  by which the back pieces of the sleeves go on beyond the seam over the arm
+  explicit Shirt(double tip_cm = 0) {
     const std::vector<DrawnEdge> body = {
         {"hem", 25, -60},        {"slit_a", 25, -45},   {"side_a", 25, 0}, {"pit_a", 18, 1},
         {"hole_a", 18, 22},      {"shoulder_a", 7, 25}, {"neck_a", 0, 10}, {"neck_b", -7, 25},
@@ -26,9 +27,12 @@ public:
     const std::vector<DrawnEdge> sleeve = {
         {"wrist", 16, -20}, {"middle", 16, 21}, {"cap", 7, 2}, {"pit", 0, 0}, {"under", 0, -20}};
     m_drawn.panel("front_sleeve_a", sleeve);
-    m_drawn.panel("back_sleeve_b", seen_in_mirror(sleeve));
+    std::vector<DrawnEdge> behind = sleeve;
+    if (tip_cm > 0)
+      behind.insert(behind.begin() + 2, {"tip", 16, 21 + tip_cm});
+    m_drawn.panel("back_sleeve_b", seen_in_mirror(behind));
     m_drawn.panel("front_sleeve_b", seen_in_mirror(sleeve));
-    m_drawn.panel("back_sleeve_a", sleeve);
+    m_drawn.panel("back_sleeve_a", behind);
     for (const std::string side : {"a", "b"}) {
       const std::string other = side == "a" ? "b" : "a", own_sleeve = "front_sleeve_" + side,
                         back_sleeve = "back_sleeve_" + other;
@@ -96,6 +100,26 @@ TEST(HalfSewn, BothSidesAndBothUnderarmsAreTold) {
                 .findings({"front_sleeve_a: under", "front_sleeve_b: under"})
                 .find("front_sleeve_a: under"),
             std::string::npos);
+}
+
+TEST(HalfSewn, ARimOfTheTrunkAndOneSleeveIsToldForEachArm) {
+  const std::string said =
+      Shirt().findings({"front: hole_a", "front: pit_a", "front: hole_b", "front: pit_b"});
+  for (const char* sleeve : {"front_sleeve_a: cap", "front_sleeve_b: cap"})
+    EXPECT_NE(said.find(std::string("half-sewn: ") + sleeve +
+                        ": is open on a rim of 56.37 cm that goes through the trunk and one "
+                        "sleeve"),
+              std::string::npos)
+        << said;
+}
+
+TEST(HalfSewn, AnEndOfACapThatIsSewnToNothingIsToldBesideTheWrist) {
+  const std::string said = Shirt(12).findings({});
+  for (const char* sleeve : {"back_sleeve_a: tip", "back_sleeve_b: tip"})
+    EXPECT_NE(said.find(std::string("half-sewn: ") + sleeve +
+                        ": is open on a rim of 12.00 cm beside that of the wrist, 32.00 cm"),
+              std::string::npos)
+        << said;
 }
 
 TEST(HalfSewn, ACollarHasEndsAndABandIsAskedForThem) {

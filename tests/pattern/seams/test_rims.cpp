@@ -78,6 +78,62 @@ TEST(Rims, OfATopAreItsHemNeckAndArmholes) {
   EXPECT_EQ(trunk, (std::vector<double>{100, 46, 45, 46})) << "hem, armhole, neck, armhole";
 }
 
+/// The same trunk with sleeves of two pieces, of which the back reaches over the shoulder by 6 cm:
+/// panels 2 to 5 are front and back of the right one and of the left one.
+Pattern shirt_with_halves() {
+  const Pattern whole = shirt(0, "sleeve ");
+  const std::vector<Vec2> front = {{0, 0}, {15, 0}, {18, 12}, {0, 26}},
+                          back = {{-15, 0}, {0, 0}, {0, 26}, {0, 32}, {-18, 12}};
+  Pattern p =
+      own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+          panel_text("SLEEVE FR", front) + ", " + panel_text("SLEEVE BK", back) + "]}");
+  for (const int k : {0, 1}) {
+    p.panels.push_back(mirror_image(p.panels[k]));
+    p.panels.back().name += "_mirror";
+  }
+  p.panels.insert(p.panels.begin(), whole.panels.begin(), whole.panels.begin() + 2);
+  return p;
+}
+
+TEST(RimSeams, HalvesOfSleevesAreSewnToEachOtherAndGoIntoArmholesAsTheyAreCalled) {
+  Pattern p = shirt_with_halves();
+  std::vector<SeamGuess> guesses = sides_and_shoulders();
+  guesses.push_back(guess(3, 0, 0, 7, false)); // a hem into an armhole
+  const std::vector<SeamGuess> all = with_rim_seams(p, guesses);
+  ASSERT_EQ(all.size(), 12u);
+  for (std::size_t k = 4; k < all.size(); ++k)
+    EXPECT_FALSE(all[k].certain) << "caps that are gathered are asked about";
+  EXPECT_EQ(all[4].with.size(), 7u) << "one answer tells all";
+  std::set<std::pair<int, int>> caps;
+  for (const SeamGuess& g : all)
+    if (g.seam.name.find(" cap-") != std::string::npos) {
+      const int half = g.seam.a[0].panel, trunk = g.seam.b[0].panel;
+      caps.insert({half, trunk});
+      EXPECT_EQ(half % 2, trunk) << "a front half on the front";
+      EXPECT_EQ(g.seam.kind, half % 2 ? "gather" : "seam");
+      const int edge = g.seam.b[0].edge; // armholes: 2 is the front's left one and the back's right
+      const bool is_right = half < 4;
+      EXPECT_EQ(edge, is_right == (half % 2 == 1) ? 2 : 7) << g.seam.name;
+    }
+  EXPECT_EQ(caps.size(), 4u);
+  std::vector<Seam> seams;
+  for (const SeamGuess& g : all)
+    seams.push_back(g.seam);
+  std::vector<double> rims;
+  for (const Rim& r : rims_of(p, seams))
+    rims.push_back(std::round(100 * r.length));
+  EXPECT_EQ(rims, (std::vector<double>{100, 45, 30, 30})) << "hem, neck, wrists";
+
+  p.panels.push_back(shirt(0, "sleeve ").panels[4]); // a collar that would be long enough for both
+  int on_neck = 0;
+  for (const SeamGuess& g : with_rim_seams(p, guesses))
+    if (g.seam.name == "collar-neck") {
+      on_neck += g.seam.b[0].panel < 2;
+      EXPECT_FALSE(touches(g.seam, {2, 3, 4, 5})) << "a wrist is shorter, and no neck";
+    }
+  EXPECT_EQ(on_neck, 1);
+}
+
 TEST(RimSeams, SleevesGoIntoArmholesWithTheLongerHalfAtTheLongerOne) {
   for (const double more : {-1.0, 1.0}) {
     SCOPED_TRACE(more);

@@ -45,12 +45,18 @@ public:
   /// itself until weight comes; bending and pressure smooth it meanwhile. Where only a little
   /// crosses, it is drawn apart for good: letting that pass too left knots in arm pits.
   void find_tangles();
+  /// A fold that is turned inside out along a seam, or a hem that hangs through a panel, is not
+  /// drawn apart: the line along which it crosses has no two sides, or stays as long. What crosses
+  /// at rest, and cloth around it, passes through itself from now on: its own stiffness and weight
+  /// bring it out.
+  /// @param reach  m, around what crosses
+  void open_knots(double reach);
   /// Holds ends and lets tangles pass, on a solver that was just built.
   void apply();
   /// Ends what find_ends() began; nothing where it found nothing.
   void release_ends();
-  /// Ends what find_tangles() began: self-contact acts everywhere again, and remaining
-  /// crossings are drawn apart.
+  /// Ends what find_tangles() or open_knots() began: self-contact acts everywhere again, and
+  /// remaining crossings are drawn apart.
   void close_tangles();
 
   /// For checkpoints.
@@ -62,6 +68,9 @@ public:
 
 private:
   bool may_help(const std::string& effect) const;
+  std::vector<char> near_crossings(const std::vector<std::array<int, 2>>& crossing,
+                                   const std::vector<Triangle>& triangles, double reach) const;
+  void let_tangles_pass();
   void remove_temporary_effect(const cloth::Effect*& effect);
 
   SimulatedCloth& m_cloth;

@@ -33,6 +33,8 @@ public:
     int probe_step = 0;               ///< when drift was last looked at
     std::vector<Vec3> probe_position; ///< #P by 3, m, some steps before the next look
     int dynamic_steps = 0;            ///< still to go with inertia
+    int knots_opened = 0;             ///< how often cloth at rest that crossed itself was let pass
+    int knots_close_at = -1;          ///< the step at which that ends; -1: nothing passes
     std::vector<Vec3> velocity;       ///< #P by 3, m/s; only in a checkpoint taken within those
 
     /// Adds its keys to a checkpoint's object; read() is the inverse.
@@ -69,6 +71,8 @@ private:
   void judge_fit(SimContext& context);
   bool resolve_leftovers(SimContext& context);
   PhaseStatus conclude(SimContext& context);
+  bool open_knots(SimContext& context);
+  void close_knots(SimContext& context);
   void let_arms_hang(SimContext& context);
   void drop_coarse_proxy(SimContext& context);
   void restart_calm(SimContext& context);
