@@ -22,7 +22,8 @@ DrapeReport go_on_in_motion(DrapeReport rest, SessionInputs inputs, const DrapeS
                             Reporter& reporter) {
   if (!rest.converged && rest.stop_reason != StopReason::AT_REST_UNCLEAN)
     return rest;
-  LevelsProgress at{.settings = settings, .rung = "", .on_given_mesh = false, .before = {}};
+  LevelsProgress at{
+      .settings = settings, .rung = "", .on_given_mesh = false, .sprung = false, .before = {}};
   at.before = rest;
   inputs.request.checkpoints.levels = &at;
   DrapeReport report = DrapeSession(inputs, settings, reporter).run();

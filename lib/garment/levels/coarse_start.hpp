@@ -19,14 +19,20 @@ namespace sloper::garment {
 std::string refusal_of_levels(const Garment& garment, const body::Body* body,
                               const DrapeSettings& settings);
 
+/// What is done about cloth that crosses itself after it was carried to the given mesh.
+enum class CarriedCrossings {
+  KEPT,  ///< nothing: contact draws most of it apart
+  SPRUNG ///< folds near it become so stiff for a while that they spring flat, through other cloth
+};
+
 /// @param garment  in: placed panels; out: sewn, on the given mesh, around the body and near its
 /// rest. Few faces may still cross body or cloth. Forearms in the way of it may be inside cloth
 /// (CollisionBody::find_arms_aside()).
 /// @param report  in and out: steps, phases, levels
 /// @return why it failed, and the garment is as it came; empty: done
 std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
-                               const DrapeSettings& settings, Reporter& reporter,
-                               DrapeReport& report);
+                               const DrapeSettings& settings, CarriedCrossings crossings,
+                               Reporter& reporter, DrapeReport& report);
 
 /// Lets a garment that was placed around a body come near its rest on its own mesh, so that small
 /// differences of the placement die out.

@@ -12,6 +12,8 @@ namespace sloper::garment {
 namespace {
 
 constexpr const char* FIRST_RUNG = "draft";
+constexpr const char* SPRUNG_APART =
+    "cloth of the coarse mesh still crossed: carried again, stiff where it did";
 const std::string ON_GIVEN_MESH = "draped on the given mesh alone: ";
 
 bool is_clean(const DrapeReport& report) {
@@ -51,6 +53,11 @@ public:
     if (!m_from)
       start();
     DrapeReport report = climb();
+    if (!ended(report) && crosses(report) && !m_at.sprung) {
+      m_at.before = report;
+      spring_apart();
+      report = climb();
+    }
     if (!ended(report)) {
       m_at.before = report;
       sew_on_given_mesh(why_not(report));
@@ -72,10 +79,24 @@ private:
   void start() {
     m_at.rung = FIRST_RUNG;
     m_at.before.levels.meshes = 2;
+    sew_on_coarse(CarriedCrossings::KEPT);
+  }
+
+  void sew_on_coarse(CarriedCrossings crossings) {
     const std::string why =
-        sew_on_coarse_mesh(m_garment, *m_body, m_at.settings, m_reporter, m_at.before);
+        sew_on_coarse_mesh(m_garment, *m_body, m_at.settings, crossings, m_reporter, m_at.before);
     if (!why.empty())
       sew_on_given_mesh(why);
+  }
+
+  /// Once more by way of the coarse mesh; what crossed there comes to the given one flat.
+  void spring_apart() {
+    m_reporter.info(SPRUNG_APART);
+    m_at.before.repairs.push_back(SPRUNG_APART);
+    take_apart(m_garment);
+    m_at.sprung = true;
+    m_at.rung = FIRST_RUNG;
+    sew_on_coarse(CarriedCrossings::SPRUNG);
   }
 
   void sew_on_given_mesh(const std::string& why) {
@@ -141,6 +162,13 @@ private:
                              report.stop_reason == StopReason::TIME_LIMIT;
     return m_at.on_given_mesh || interrupted || report.misfit != Misfit::NONE ||
            (report.converged && is_clean(report) && standing().empty());
+  }
+
+  /// Whether cloth of the coarse mesh is calm, and its leaves lie as they ought to, but it is not
+  /// clear.
+  bool crosses(const DrapeReport& report) const {
+    const bool calm = report.converged || report.stop_reason == StopReason::AT_REST_UNCLEAN;
+    return calm && !is_clean(report) && standing().empty();
   }
 
   std::string standing() const { return standing_text(roll_line_states(m_garment)); }

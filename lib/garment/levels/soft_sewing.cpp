@@ -116,13 +116,13 @@ std::vector<std::array<int, 2>> sleeve_stitches(const Garment& garment) {
 class SoftCloth {
 public:
   SoftCloth(Garment& garment, CollisionBody& body, double reach, double stiffness, double drag,
-            double tolerance)
+            double tolerance, bool by_direction = true)
       : m_garment(garment), m_start(garment.position), m_mesh(cloth_mesh_of(garment)),
         m_hinges(m_mesh.hinges), m_velocity(garment.position.size(), Vec3::Zero()),
         m_solver(m_mesh, garment.position, m_velocity) {
     m_solver.emplace<cloth::EdgeSpringEffect>(m_mesh);
     m_solver.emplace<cloth::ShearEffect>(m_mesh);
-    add_bending();
+    add_bending(by_direction);
     const cloth::SoftBodyContactOptions contact{.reach_m = reach,
                                                 .stiffness_n_m3 = stiffness,
                                                 .drag = drag,
@@ -138,6 +138,14 @@ public:
   cloth::ClothSolver& solver() { return m_solver; }
   const cloth::ClothMesh& mesh() const { return m_mesh; }
   cloth::SoftBodyContactEffect* contact() { return m_contact; } ///< null without a body
+  /// Without bending by direction: stiffer in a region.
+  void set_bending(double times, const StiffRegion& stiff) {
+    for (std::size_t e = 0; e < m_hinges.size(); ++e) {
+      const auto& on = m_hinges[e].particle;
+      const bool in = std::any_of(on.begin(), on.end(), [&](int i) { return stiff.particles[i]; });
+      m_mesh.hinges[e].stiffness = (in ? stiff.bending : times) * m_hinges[e].stiffness;
+    }
+  }
   void set_bending(double times) {
     m_mesh.bend_scale = times;
     for (std::size_t e = 0; e < m_hinges.size(); ++e)
@@ -155,9 +163,9 @@ public:
 
 private:
   /// By direction where a fabric does: the finer mesh must not find other folds to rest in.
-  void add_bending() {
+  void add_bending(bool by_direction) {
     const auto& fabrics = m_mesh.fabrics;
-    if (std::any_of(fabrics.begin(), fabrics.end(), cloth::bends_by_direction))
+    if (by_direction && std::any_of(fabrics.begin(), fabrics.end(), cloth::bends_by_direction))
       m_solver.emplace<cloth::OrthotropicBendingEffect>(m_mesh);
     else
       m_solver.emplace<cloth::BendingEffect>(m_mesh);
@@ -241,6 +249,17 @@ SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxi
     if (!cloth.step())
       return {.finite = false};
   }
+  return {.residual_force_ratio = cloth.last().residual_force_ratio};
+}
+
+SoftRelaxed spring_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
+                          const StiffRegion& stiff, double gravity_m_s2) {
+  SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance, false);
+  cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
+  cloth.set_bending(how.bending, stiff);
+  for (int k = 0; k < how.steps; ++k)
+    if (!cloth.step())
+      return {.finite = false};
   return {.residual_force_ratio = cloth.last().residual_force_ratio};
 }
 

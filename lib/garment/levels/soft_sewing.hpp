@@ -48,4 +48,15 @@ struct SoftRelaxed {
 SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
                          double gravity_m_s2, Reporter& reporter);
 
+/// Cloth that is stiffer than the rest.
+struct StiffRegion {
+  std::vector<char> particles; ///< by particle; a hinge counts with any of its four
+  double bending = 1;          ///< times the fabric's
+};
+
+/// As relax_softly(), but nothing grows softer: `how.bending` holds to the end, and what is stiff
+/// springs flat, through other cloth. Fabrics bend alike in all directions here.
+SoftRelaxed spring_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
+                          const StiffRegion& stiff, double gravity_m_s2);
+
 } // namespace sloper::garment

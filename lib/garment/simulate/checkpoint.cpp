@@ -205,11 +205,9 @@ LayersProgress read_layers(const Node& node, std::size_t n_particles) {
 }
 
 Json levels_json(const LevelsProgress& l) {
-  return {{"settings", settings_json(l.settings)},
-          {"rung", l.rung},
-          {"on_given_mesh", l.on_given_mesh},
-          {"before", progress_json(l.before)},
-          {"meshes", mesh_levels_json(l.before.levels)}};
+  return {{"settings", settings_json(l.settings)}, {"rung", l.rung},
+          {"on_given_mesh", l.on_given_mesh},      {"sprung", l.sprung},
+          {"before", progress_json(l.before)},     {"meshes", mesh_levels_json(l.before.levels)}};
 }
 
 LevelsProgress read_levels(const Node& node) {
@@ -220,6 +218,7 @@ LevelsProgress read_levels(const Node& node) {
   if (!l.rung.empty() && std::find(names.begin(), names.end(), l.rung) == names.end())
     node.at("rung").fail("checkpoint.damaged"_id, "is no preset");
   l.on_given_mesh = node.at("on_given_mesh").boolean();
+  l.sprung = node.at("sprung").boolean();
   l.before = read_progress(node.at("before"), node.at("settings"));
   MeshLevels& levels = l.before.levels;
   const Node meshes = node.at("meshes");

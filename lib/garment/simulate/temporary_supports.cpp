@@ -32,7 +32,32 @@ void grow(std::vector<char>& marked, const std::vector<Triangle>& triangles, int
   }
 }
 
+std::vector<char> around(const std::vector<std::array<int, 2>>& crossing,
+                         const std::vector<Triangle>& triangles, std::size_t n_particles,
+                         int rings) {
+  std::vector<char> near(n_particles, 0);
+  for (const std::array<int, 2>& pair : crossing)
+    for (int f : pair)
+      for (int i : triangles[f])
+        near[i] = 1;
+  grow(near, triangles, rings);
+  return near;
+}
+
+int rings_within(double reach, double edge) {
+  return static_cast<int>(std::lround(reach / edge));
+}
+
 } // namespace
+
+std::vector<char> near_crossings(const std::vector<Vec3>& position,
+                                 const std::vector<Triangle>& triangles, int rings) {
+  const collision::TriangleTree tree(position, triangles);
+  const auto crossing = collision::self_intersections(position, triangles, tree);
+  if (crossing.empty())
+    return {};
+  return around(crossing, triangles, position.size(), rings);
+}
 
 TemporarySupports::TemporarySupports(SimulatedCloth& cloth, const DrapeSettings& settings,
                                      PenetrationResolver& resolver, Telemetry& telemetry)
@@ -82,18 +107,6 @@ void TemporarySupports::find_ends(LimbEnds ends) {
     m_state.held.push_back(pin.target);
 }
 
-std::vector<char> TemporarySupports::near_crossings(const std::vector<std::array<int, 2>>& crossing,
-                                                    const std::vector<Triangle>& triangles,
-                                                    double reach) const {
-  std::vector<char> near(m_cloth.garment().position.size(), 0);
-  for (const auto& pair : crossing)
-    for (int f : pair)
-      for (int i : triangles[f])
-        near[i] = 1;
-  grow(near, triangles, static_cast<int>(std::lround(reach / m_cloth.mean_edge())));
-  return near;
-}
-
 void TemporarySupports::find_tangles() {
   m_state.tangles.clear();
   if (!m_cloth.is_active("self_contact"))
@@ -103,7 +116,8 @@ void TemporarySupports::find_tangles() {
   const collision::TriangleTree tree(position, triangles);
   const auto crossing = collision::self_intersections(position, triangles, tree);
   const double edge = m_cloth.mean_edge();
-  const std::vector<char> near = near_crossings(crossing, triangles, TANGLE_REACH);
+  const std::vector<char> near =
+      around(crossing, triangles, position.size(), rings_within(TANGLE_REACH, edge));
   std::vector<Triangle> patches;
   for (const Triangle& t : triangles)
     if (near[t[0]] && near[t[1]] && near[t[2]])
@@ -149,11 +163,9 @@ void TemporarySupports::let_tangles_pass() {
 }
 
 void TemporarySupports::open_knots(double reach) {
-  const std::vector<Vec3>& position = m_cloth.garment().position;
-  const std::vector<Triangle> triangles = m_cloth.garment().particle_triangles();
-  const collision::TriangleTree tree(position, triangles);
   const std::vector<char> near =
-      near_crossings(collision::self_intersections(position, triangles, tree), triangles, reach);
+      near_crossings(m_cloth.garment().position, m_cloth.garment().particle_triangles(),
+                     rings_within(reach, m_cloth.mean_edge()));
   for (std::size_t i = 0; i < near.size(); ++i)
     if (near[i])
       m_state.tangles.push_back(static_cast<int>(i));

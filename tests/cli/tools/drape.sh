@@ -197,6 +197,22 @@ case_strain_that_sewing_left_evens_out_in_a_tight_shirt() {
   ((p99 < 600)) || fail "1 % of the weft is stretched by more than 0.0$p99; evened out it is 0.053 to 0.059, and was 0.063"
 }
 
+# A skirt of the cuff crosses itself on the coarse mesh. It was sewn on the given one, in five times the time.
+case_cloth_that_crosses_on_the_coarse_mesh_is_carried_again_stiff() {
+  local shared=${SLOPER_SHARED:-}/data folder=${program%/*}
+  [[ -d $shared/foreign ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data/foreign"; exit 77; }
+  run 0 "$folder/scan-landmarks" -q -o f.json "$shared/bodies/smpl/f_smpl_average_A40.obj"
+  run 0 "$folder/pattern-mesh" -q --body f.json -o p.json "$shared/foreign/garmentcode-random/rand_NTQH0RO1L0_specification.json"
+  run 0 "$program" -q --accuracy draft --body f.json --panels p.json --checkpoint run.checkpoint --checkpoint-steps 3 --report report.json -o dress.json
+  python3 -c 'import json
+report = json.load(open("report.json"))
+assert report["levels"]["meshes"] == 2, report["levels"]
+assert any("carried again, stiff" in repair for repair in report["repairs"]), report["repairs"]' || fail "it did not take that way"
+  grep -q '"sprung": *true' run.checkpoint || fail "the checkpoint does not say so"
+  run 0 "$program" -q --from run.checkpoint --body f.json -o again.json
+  cmp dress.obj again.obj || fail "a run that goes on from the checkpoint ends elsewhere"
+}
+
 # The lapels and the collar of the sample jacket start turned over along their roll lines, and rest so.
 case_a_jacket_rests_with_its_lapels_and_its_collar_turned_over() {
   local source

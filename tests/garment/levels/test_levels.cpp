@@ -18,6 +18,7 @@
 #include <sloper/garment/scene/scene.hpp>
 #include <sloper/garment/sewing.hpp>
 #include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/garment/simulate/temporary_supports.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
@@ -168,6 +169,48 @@ TEST(SoftSewing, starts_a_micrometre_apart_end_micrometres_apart_where_no_body_h
     EXPECT_LT(sewing.widest_gap_m, 0.002);
   }
   EXPECT_LT(largest_difference(ends[0].position, ends[1].position), 2e-5);
+}
+
+/// A strip of 32 x 12 cm whose middle is a loop that its ends cross: one and a fifth turns.
+Garment looped_strip() {
+  const std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "strip", "panels": [
+    {"name": "strip", "outline": [{"edge": "low", "path": [["M", 0, 0], ["L", 32, 0]]}, {"edge": "end", "path": [["L", 32, 12]]},
+      {"edge": "high", "path": [["L", 0, 12]]}, {"edge": "start", "path": [["L", 0, 0]]}]}]})";
+  Garment garment;
+  garment.panels = pattern::mesh_pattern(
+      pattern::read_pattern_json(io::parse_json(text, "strip"), "strip"), 0.015, "strip");
+  const double straight = 0.07, radius = (0.32 - 2 * straight) / (2.4 * M_PI);
+  std::vector<Vec3> at;
+  for (const Vec2& p : garment.panels.pattern) {
+    Vec2 q = Vec2::Zero(), along = Vec2::UnitX();
+    for (double s = 0, step = 1e-3; s < p.x(); s += step) {
+      const bool turns = s > straight && s < 0.32 - straight;
+      q += std::min(step, p.x() - s) * along;
+      if (turns)
+        along = Eigen::Rotation2Dd(step / radius) * along;
+    }
+    at.emplace_back(q.x(), p.y(), q.y());
+  }
+  unsew(garment);
+  garment.position = at;
+  weld(garment, at);
+  return garment;
+}
+
+TEST(SoftSewing, a_loop_that_crosses_itself_springs_flat_where_it_is_stiff) {
+  CollisionBody nothing(nullptr, 0, silent_reporter());
+  const auto crossing_after = [&](double bending) {
+    Garment strip = looped_strip();
+    StiffRegion stiff{.particles = near_crossings(strip.position, strip.particle_triangles(), 4),
+                      .bending = bending};
+    EXPECT_FALSE(stiff.particles.empty());
+    const SoftRelaxing how{.steps = 40, .bending = 1, .cg_tolerance = 1e-3};
+    EXPECT_TRUE(spring_softly(strip, nothing, how, stiff, 0).finite);
+    return !near_crossings(strip.position, strip.particle_triangles(), 0).empty();
+  };
+  EXPECT_TRUE(crossing_after(1)) << "it is flat without being stiff, and the test shows nothing";
+  EXPECT_FALSE(crossing_after(3e4));
 }
 
 TEST(SoftSewing, coarse_cloth_bends_by_direction) {

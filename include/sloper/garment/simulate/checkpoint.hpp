@@ -56,7 +56,9 @@ struct LevelsProgress {
   /// moves.
   std::string rung;
   bool on_given_mesh = false; ///< the coarse mesh failed: sewn on the given one
-  DrapeReport before;         ///< steps, seconds, effects, phases and repairs until then
+  /// What crossed at first on the given mesh was sprung apart (sew_on_coarse_mesh()).
+  bool sprung = false;
+  DrapeReport before; ///< steps, seconds, effects, phases and repairs until then
 };
 
 /// Contents of a checkpoint file: a drape interrupted. The report is that of the run so

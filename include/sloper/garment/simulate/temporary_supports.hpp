@@ -13,6 +13,13 @@
 
 namespace sloper::garment {
 
+/// Particles of cloth that crosses itself, and of cloth around it. Linear in triangles and rings.
+/// @param position  #particles by 3, m   @param triangles  of particles
+/// @param rings  of triangles around what crosses
+/// @return #particles, 1 where it is near; empty: nothing crosses
+std::vector<char> near_crossings(const std::vector<Vec3>& position,
+                                 const std::vector<Triangle>& triangles, int rings);
+
 /// Adds and removes the temporary supports of one session.
 class TemporarySupports {
 public:
@@ -68,8 +75,6 @@ public:
 
 private:
   bool may_help(const std::string& effect) const;
-  std::vector<char> near_crossings(const std::vector<std::array<int, 2>>& crossing,
-                                   const std::vector<Triangle>& triangles, double reach) const;
   void let_tangles_pass();
   void remove_temporary_effect(const cloth::Effect*& effect);
 
