@@ -471,6 +471,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
       body.scan.findings.push_back(
           {"scan.landmark-not-found"_id, "error", "landmark not found", name});
     }
+  if (!is_torso)
+    add_missing(body);
   return result;
 }
 

@@ -1,8 +1,13 @@
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <sloper/base/error.hpp>
 #include <sloper/base/units.hpp>
+#include <unistd.h>
 #include <utility>
 
 using namespace sloper;
@@ -154,6 +159,23 @@ TEST(MeasureScan, legs_that_end_without_feet_are_refused) {
     EXPECT_EQ(measured.doubts.front().id, "scan.foot-missing") << floor_m;
   }
   EXPECT_TRUE(measure(whole).doubts.empty());
+}
+
+TEST(MeasureScan, each_landmark_that_is_not_found_is_named) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sloper-missing-" + std::to_string(::getpid()) + ".json");
+  std::ofstream(path) << R"({"format": "landmark-rules", "version": 1,
+                             "tree": {"axilla_merge": [], "malleolus": []}})";
+  ScanOptions options;
+  options.rules = Rules::read(path.string());
+  std::filesystem::remove(path);
+  const Body body = measure(test::mannequin("f-165-a").mesh, options).body;
+  for (const char* name : {"axilla_merge_l", "axilla_merge_r", "malleolus_l", "malleolus_r"}) {
+    const std::vector<Finding>& all = body.scan.findings;
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Finding& finding) {
+      return finding.place == name && finding.id == "scan.landmark-not-found";
+    })) << name;
+  }
 }
 
 TEST(MeasureScan, a_bent_head_changes_the_girth_of_the_neck_little_and_the_spread_covers_it) {
