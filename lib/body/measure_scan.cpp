@@ -455,6 +455,9 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   add_findings(body, sorted, skin);
   add_holes(body, skin.holes, origin);
   describe_likeness(*options.corrections, result);
+  for (const Finding& finding : body.scan.findings)
+    if (finding.severity == "error" && !is_torso)
+      result.doubts.push_back(finding);
   if (!is_torso)
     for (const Finding& doubt :
          doubts_of(body, options.corrections->strangeness(result.features))) {
@@ -468,6 +471,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
       body.scan.findings.push_back(
           {"scan.landmark-not-found"_id, "error", "landmark not found", name});
     }
+  if (!is_torso)
+    add_missing(body);
   return result;
 }
 

@@ -52,6 +52,29 @@ void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
   }
 }
 
+void add_missing(Body& body) {
+  constexpr const char* IN_THE_MIDDLE[] = {
+      "abdomen_front",      "buttock_back", "crotch",      "head_tip",   "hip_center",
+      "hip_section_center", "neck_back",    "neck_center", "neck_front", "omphalion"};
+  constexpr const char* ON_BOTH_SIDES[] = {
+      "acromion",   "ankle",          "axilla",     "axilla_back", "axilla_front",  "axilla_merge",
+      "bust_point", "bust_prominent", "elbow",      "foot_tip",    "hand_extreme",  "hand_tip",
+      "heel",       "hip_joint",      "knee",       "leg_top",     "malleolus",     "neck_side",
+      "olecranon",  "patella",        "waist_side", "wrist",       "shoulder_joint"};
+  std::vector<std::string> names(std::begin(IN_THE_MIDDLE), std::end(IN_THE_MIDDLE));
+  for (const std::string place : ON_BOTH_SIDES) {
+    names.push_back(place + "_l");
+    names.push_back(place + "_r");
+  }
+  std::vector<Finding>& all = body.scan.findings;
+  for (const std::string& name : names) {
+    const bool is_named =
+        std::any_of(all.begin(), all.end(), [&](const Finding& f) { return f.place == name; });
+    if (!body.has_landmark(name) && !is_named)
+      all.push_back({"scan.landmark-not-found"_id, "info", "landmark not found", name});
+  }
+}
+
 void add_unit_finding(Body& body, bool given) {
   constexpr double SMALL = 1.3, TALL = 2.1; // m
   constexpr double RARE = 0.3;              // decimetres and feet

@@ -16,6 +16,9 @@ void add_findings(Body& body, const SegmentedScan& sorted, const SkinSurface& sk
 /// @param origin  what the body was moved by since the holes were found, m
 void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin);
 
+/// Names each landmark of the document that was not found and of which nothing says so yet.
+void add_missing(Body& body);
+
 /// Which unit was taken and how sure that is: the next guess where it is not much less likely, and
 /// statures that few people have.
 /// @param given  the unit was stated, not guessed

@@ -1,8 +1,13 @@
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <sloper/base/error.hpp>
 #include <sloper/base/units.hpp>
+#include <unistd.h>
 #include <utility>
 
 using namespace sloper;
@@ -44,6 +49,32 @@ TriangleMesh with_bent_head(TriangleMesh mesh, double degrees) {
   return mesh;
 }
 
+/// The mesh without the faces that have a corner where `is_cut` holds, and without their vertices.
+template<class IsCut> TriangleMesh without(const TriangleMesh& whole, const IsCut& is_cut) {
+  TriangleMesh rest;
+  std::vector<int> number(whole.positions.size(), -1);
+  for (Triangle t : whole.triangles) {
+    if (std::any_of(t.begin(), t.end(), [&](int v) { return is_cut(whole.positions[v]); }))
+      continue;
+    for (int& v : t) {
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(rest.positions.size());
+        rest.positions.push_back(whole.positions[v]);
+      }
+      v = number[v];
+    }
+    rest.triangles.push_back(t);
+  }
+  return rest;
+}
+
+bool is_warned_of(const Body& body, const std::string& place) {
+  const std::vector<Finding>& all = body.scan.findings;
+  return std::any_of(all.begin(), all.end(), [&](const Finding& finding) {
+    return finding.place == place && finding.severity == "warning";
+  });
+}
+
 void expect_refused(const TriangleMesh& scan, const std::string& reason) {
   try {
     measure(scan);
@@ -81,23 +112,8 @@ TEST(MeasureScan, a_missing_hand_is_told) {
   const Body whole = measure(made.mesh).body;
   EXPECT_EQ(reported(whole), 0);
   const Vec3 wrist = test::in_scan(whole, "wrist_l"), tip = test::in_scan(whole, "hand_tip_l");
-  TriangleMesh cut = made.mesh;
-  std::erase_if(cut.triangles, [&](const Triangle& t) {
-    const Vec3& p = cut.positions[t[0]];
-    return p.x() > 0.3 && (p - wrist).dot(tip - wrist) > 0;
-  });
-  const TriangleMesh loose = std::exchange(cut, {}); // without the hand's vertices too
-  std::vector<int> number(loose.positions.size(), -1);
-  for (Triangle t : loose.triangles) {
-    for (int& v : t) {
-      if (number[v] < 0) {
-        number[v] = static_cast<int>(cut.positions.size());
-        cut.positions.push_back(loose.positions[v]);
-      }
-      v = number[v];
-    }
-    cut.triangles.push_back(t);
-  }
+  const TriangleMesh cut = without(
+      made.mesh, [&](const Vec3& p) { return p.x() > 0.3 && (p - wrist).dot(tip - wrist) > 0; });
   const Body body = measure(cut).body;
   EXPECT_EQ(reported(body), 1);
   EXPECT_LT(body.landmarks.at("hand_tip_l").confidence, 0.15);
@@ -105,6 +121,61 @@ TEST(MeasureScan, a_missing_hand_is_told) {
   EXPECT_LT((test::in_scan(body, "wrist_l") - wrist).norm(), 0.035) << "where the arm ends";
   EXPECT_LT((test::in_scan(body, "elbow_l") - test::in_scan(whole, "elbow_l")).norm(), 0.035)
       << "not half a hand's length off";
+}
+
+TEST(MeasureScan, an_arm_that_ends_in_a_stump_is_measured_and_its_ends_are_told) {
+  const test::MadeFigure& made = test::mannequin("m-178-a");
+  const Body whole = measure(made.mesh).body;
+  const Vec3 shoulder = test::in_scan(whole, "shoulder_joint_l"),
+             wrist = test::in_scan(whole, "wrist_l");
+  for (const double share : {0.85, 0.7}) { // of the way to the wrist
+    const MeasuredScan measured = measure(without(made.mesh, [&](const Vec3& p) {
+      return p.x() > 0.2 &&
+             (p - shoulder).dot(wrist - shoulder) > share * (wrist - shoulder).squaredNorm();
+    }));
+    const Body& body = measured.body;
+    EXPECT_TRUE(measured.missing.empty()) << share;
+    EXPECT_TRUE(measured.doubts.empty()) << share;
+    for (const char* name : {"hand_tip_l", "wrist_l", "elbow_l", "olecranon_l"})
+      EXPECT_TRUE(is_warned_of(body, name)) << share << " " << name;
+    EXPECT_FALSE(is_warned_of(body, "wrist_r"));
+    for (const char* name :
+         {"shoulder_joint_l", "acromion_l", "axilla_l", "elbow_r", "waist_side_l"})
+      EXPECT_LT((test::in_scan(body, name) - test::in_scan(whole, name)).norm(), 0.02)
+          << share << " " << name;
+    EXPECT_LT((test::in_scan(body, "elbow_l") - test::in_scan(whole, "elbow_l")).norm(), 0.035)
+        << share << ": as far from the shoulder as people's is";
+    EXPECT_LT((test::in_scan(body, "hand_extreme_l") - shoulder).norm(), (wrist - shoulder).norm())
+        << share << ": on the stump";
+  }
+}
+
+TEST(MeasureScan, legs_that_end_without_feet_are_refused) {
+  const TriangleMesh& whole = test::mannequin("m-178-a").mesh;
+  for (const double floor_m : {0.06, 0.10, 0.42}) {
+    const MeasuredScan measured =
+        measure(without(whole, [&](const Vec3& p) { return p.y() < floor_m; }));
+    ASSERT_FALSE(measured.doubts.empty()) << floor_m;
+    EXPECT_EQ(measured.doubts.front().id, "scan.foot-missing") << floor_m;
+  }
+  EXPECT_TRUE(measure(whole).doubts.empty());
+}
+
+TEST(MeasureScan, each_landmark_that_is_not_found_is_named) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sloper-missing-" + std::to_string(::getpid()) + ".json");
+  std::ofstream(path) << R"({"format": "landmark-rules", "version": 1,
+                             "tree": {"axilla_merge": [], "malleolus": []}})";
+  ScanOptions options;
+  options.rules = Rules::read(path.string());
+  std::filesystem::remove(path);
+  const Body body = measure(test::mannequin("f-165-a").mesh, options).body;
+  for (const char* name : {"axilla_merge_l", "axilla_merge_r", "malleolus_l", "malleolus_r"}) {
+    const std::vector<Finding>& all = body.scan.findings;
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Finding& finding) {
+      return finding.place == name && finding.id == "scan.landmark-not-found";
+    })) << name;
+  }
 }
 
 TEST(MeasureScan, a_bent_head_changes_the_girth_of_the_neck_little_and_the_spread_covers_it) {

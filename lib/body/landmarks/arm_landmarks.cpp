@@ -1,6 +1,7 @@
 #include <body/landmarks/landmark_finder.hpp>
 #include <body/landmarks/shoulder_slope.hpp>
 #include <body/measure/arm_girths.hpp>
+#include <body/measure/elbow_bend.hpp>
 #include <sloper/base/units.hpp>
 
 #include <algorithm>
@@ -12,8 +13,7 @@ namespace sloper::body {
 namespace {
 
 constexpr double REAR_FLAT = 0.002; ///< m
-constexpr double STRAIGHT =
-    0.26; ///< bend of an elbow that tells nothing: 15 degrees, as the length of bend_at()
+constexpr double NO_EVIDENCE = 0.1; ///< confidence of what is put where an arm ends
 
 /// The gap of one arm closes lower than the other's: what rests on it is believed less.
 void tell_lifted_pit(const Finder& f, const ArmTrace& arm, const std::string& suffix) {
@@ -305,41 +305,6 @@ Vec3 find_shoulder(const Finder& f, int side) {
   return by_pit().value_or(by_axis);
 }
 
-/// How far the arm's centre line is bent at `along`: towards the bend's outer side, twice the sine
-/// of half the angle long.
-Vec3 bend_at(const ArmTrace& arm, double along, double s) {
-  constexpr double BESIDE = 0.06; // of stature
-  const Vec3 p = arm.at(along);
-  return (p - arm.at(along + BESIDE * s)).normalized() +
-         (p - arm.at(along - BESIDE * s)).normalized();
-}
-
-/// Where the arm is bent most near `around`, with how much it is bent there; nothing where it is
-/// straight.
-std::optional<Vec2> elbow_by_bend(const ArmTrace& arm, double s, double around) {
-  constexpr double NEAR = 0.035, STEP = 0.003; // of stature
-  double sum = 0, weight = 0, most = 0;
-  for (double off = -NEAR; off <= NEAR; off += STEP)
-    most = std::max(most, bend_at(arm, around + off * s, s).norm());
-  if (most < STRAIGHT)
-    return std::nullopt;
-  for (double off = -NEAR; off <= NEAR; off += STEP)
-    if (const double w = bend_at(arm, around + off * s, s).norm() - 0.8 * most; w > 0) {
-      sum += w * (around + off * s);
-      weight += w;
-    }
-  return Vec2(sum / weight, most);
-}
-
-/// The direction in which the elbow's point lies: the outer side of the bend, of a straight arm the
-/// rear.
-Vec3 elbow_faces(const ArmTrace& arm, double along, double s) {
-  constexpr double WHOLLY = 0.42; // 24 degrees
-  const Vec3 bend = bend_at(arm, along, s);
-  const double share = std::clamp((bend.norm() - STRAIGHT) / (WHOLLY - STRAIGHT), 0.0, 1.0);
-  return ((1 - share) * -Vec3::UnitZ() + share * bend.normalized()).normalized();
-}
-
 /// The elbow's point: the middle of what is as far out along `out` as makes no difference, in the
 /// arm's section at `along`.
 Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along, const Vec3& out) {
@@ -395,7 +360,7 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
                          [&]() -> std::optional<double> {
                            if (!bend)
                              return std::nullopt;
-                           const double share = std::clamp((bend->y() - STRAIGHT) / 0.35, 0.0,
+                           const double share = std::clamp((bend->y() - STRAIGHT_ELBOW) / 0.35, 0.0,
                                                            f.number("elbow.bend_weight"));
                            return with_swell().value_or(by_ratio) * (1 - share) + share * bend->x();
                          }},
@@ -415,6 +380,52 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
              return std::optional(
                  rear_of_section(arm, f.levels.skin(), point, elbow_faces(arm, along->value, f.s)));
            }}});
+}
+
+/// Warns of what is measured along an arm that ends before its wrist.
+void tell_stump(const Finder& f, const std::string& suffix, bool has_elbow) {
+  for (const std::string place : {"wrist", "elbow", "olecranon"}) {
+    const auto it = f.body.landmarks.find(place + suffix);
+    if (it == f.body.landmarks.end())
+      continue;
+    const bool is_seen = has_elbow && place != "wrist";
+    if (!is_seen)
+      it->second.confidence = NO_EVIDENCE;
+    f.body.scan.findings.push_back({"scan.hand-missing"_id, "warning",
+                                    is_seen ? "the arm ends before the wrist: it is put as far "
+                                              "from the shoulder as people's are"
+                                            : "the arm ends before it: it is put where the arm "
+                                              "ends",
+                                    it->first});
+  }
+}
+
+/// No hand: the wrist is where the arm ends, or as far from the shoulder as people's is if that is
+/// nearer. @param reach of the arm's end from the shoulder joint, m
+void find_ends_without_hand(const Finder& f, int side, double reach, const RuleChoice& rule) {
+  const ArmTrace& arm = f.arms[side];
+  const std::string suffix = side_suffix(side);
+  const double usual = f.number("hand.arm_of_stature") * f.s;
+  const double arm_length = std::min(reach, usual);
+  f.body.scan.findings.push_back(
+      {"scan.hand-missing"_id, "warning",
+       "the hand is missing or hidden: hand and wrist are put where the arm ends",
+       "hand_tip" + suffix});
+  f.explain("hand_tip" + suffix + ": the arm is too short for a hand and has no wrist");
+  f.put("wrist" + suffix, arm_length < reach ? arm.at(reach - arm_length) : arm.tip, 2, rule);
+  // the skin within an arm's length of a stump is that of head and trunk too
+  if (f.has("hand_extreme" + suffix))
+    f.body.landmarks["hand_extreme" + suffix].p = arm.tip;
+  for (const char* name : {"hand_tip", "hand_extreme", "wrist"})
+    if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end())
+      it->second.confidence = NO_EVIDENCE;
+  const double upper_arm = upper_arm_without_hand(reach, usual, f.number("elbow.of_arm"));
+  find_elbow(f, side, reach - arm_length, arm_length - std::min(upper_arm, reach));
+  for (const char* name : {"elbow", "olecranon"})
+    if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end())
+      it->second.confidence *= 0.5;
+  if (reach < SHORT_ARM * usual)
+    tell_stump(f, suffix, upper_arm < reach);
 }
 
 } // namespace
@@ -442,17 +453,16 @@ void find_arm_landmarks(const Finder& f) {
              }}});
     const double by_ratio = 0.5 * (f.number("hand.of_stature") * s +
                                    f.number("hand.of_arm") * (joint - arm.tip).norm());
-    const auto hand =
-        f.choose<double>("wrist", "wrist" + suffix,
-                         {{"least_girth_after_hand",
-                           [&]() -> std::optional<double> {
-                             const auto least =
-                                 wrist_by_girth(arm, f.number("wrist.least_to_palm"), s);
-                             if (!least || *least > by_ratio + f.number("wrist.longest_hand") * s)
-                               return std::nullopt;
-                             return *least - f.number("wrist.before_least_girth") * s;
-                           }},
-                          {"arm_ratio", [&] { return std::optional(by_ratio); }}});
+    const auto hand = f.choose<double>(
+        "wrist", "wrist" + suffix,
+        {{"least_girth_after_hand",
+          [&]() -> std::optional<double> {
+            const auto least = wrist_by_girth(arm, f.number("wrist.least_to_palm"), s);
+            if (!least || arm.is_stump || *least > by_ratio + f.number("wrist.longest_hand") * s)
+              return std::nullopt;
+            return *least - f.number("wrist.before_least_girth") * s;
+          }},
+         {"arm_ratio", [&] { return std::optional(by_ratio); }}});
     if (!hand)
       continue;
     const double reach = (joint - arm.tip).norm();
@@ -466,23 +476,7 @@ void find_arm_landmarks(const Finder& f) {
                  std::max(path, (joint - wrist).norm()) * (1 - f.number("elbow.of_arm")));
       continue;
     }
-    // no hand: the wrist is where the arm ends, or as far from the shoulder as people's is if that
-    // is nearer
-    const double arm_length = std::min(reach, f.number("hand.arm_of_stature") * s);
-    f.body.scan.findings.push_back(
-        {"scan.hand-missing"_id, "warning",
-         "the hand is missing or hidden: hand and wrist are put where the arm ends",
-         "hand_tip" + suffix});
-    f.explain("hand_tip" + suffix + ": the arm is too short for a hand and has no wrist");
-    f.put("wrist" + suffix, arm_length < reach ? arm.at(reach - arm_length) : arm.tip, 2,
-          *hand->rule);
-    for (const char* name : {"hand_tip", "hand_extreme", "wrist"})
-      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end())
-        it->second.confidence = 0.1;
-    find_elbow(f, side, reach - arm_length, arm_length * (1 - f.number("elbow.of_arm")));
-    for (const char* name : {"elbow", "olecranon"})
-      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end())
-        it->second.confidence *= 0.5;
+    find_ends_without_hand(f, side, reach, *hand->rule);
   }
 }
 

@@ -15,6 +15,10 @@ constexpr double HOLLOW_BELOW = 0.05,
                                        ///< bodies its error is 12 mm (sd), at most 65
 constexpr double EITHER = 0.6;         ///< of the confidence: a second place is as low
 constexpr double LEG_FLAT = 0.001;     ///< m: as far out as makes no difference
+/// Of the depth of the leg above it: of 428 feet of 214 bodies, 60 of them as scanners deliver
+/// them, the shortest is 2.54; of a leg cut off 6 cm above the floor it is 1.95, from 10 cm on 1.0
+/// to 1.1.
+constexpr double LEAST_FOOT = 2.2;
 
 /// Height of the hollow behind the knee: where the back of the leg comes furthest forward.
 std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
@@ -78,6 +82,40 @@ std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double d
   return weight > 0 ? Vec3(sum.x() / weight, sum.y() / weight, mean.z()) : mean;
 }
 
+/// How often the depth of the leg above the ankle, where it is least, goes into the length of the
+/// foot; empty where the leg has no section there.
+std::optional<double> foot_to_leg(const Finder& f, int side) {
+  constexpr double LOW = 0.03, HIGH = 0.14; // of stature
+  const std::string suffix = side_suffix(side);
+  if (!f.has("foot_tip" + suffix) || !f.has("heel" + suffix))
+    return std::nullopt;
+  double least = 1e300;
+  for (const Slice& slice : f.levels.slices())
+    if (slice.y > LOW * f.s && slice.y < HIGH * f.s && slice.leg[side] >= 0)
+      least = std::min(least, slice.loops[slice.leg[side]].size().y());
+  if (least > f.s)
+    return std::nullopt;
+  const Vec3 foot = f.at("foot_tip" + suffix) - f.at("heel" + suffix);
+  return std::hypot(foot.x(), foot.z()) / least;
+}
+
+/// A leg that ends in a stump, as of a scan that is cut off above the feet: what lies above is
+/// measured from there, and the stature with it.
+void tell_missing_foot(const Finder& f, int side) {
+  const auto ratio = foot_to_leg(f, side);
+  if (!ratio)
+    return;
+  const std::string foot = std::string("foot_tip") + side_suffix(side);
+  char text[160];
+  std::snprintf(text, sizeof text, "the foot is %.2f times as long as the leg is deep above it",
+                *ratio);
+  f.explain(foot + ": " + text);
+  if (*ratio < LEAST_FOOT)
+    f.body.scan.findings.push_back(
+        {"scan.foot-missing"_id, "error",
+         "the leg ends without a foot: stature and all heights are measured from there", foot});
+}
+
 void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
   const std::string suffix = side_suffix(side);
   const double by_ratio = ankle_y + f.number("knee.of_leg") * (hip_y - ankle_y);
@@ -123,6 +161,7 @@ void find_leg(const Finder& f, int side) {
   };
   find_end("foot_tip", "foremost_of_foot", 1);
   find_end("heel", "rearmost_of_foot", -1);
+  tell_missing_foot(f, side);
   const auto top = f.levels.leg_at(crotch_y - 0.010, side);
   if (!top)
     return;

@@ -85,7 +85,7 @@ RuleChoice read_choice(const io::Node& entry, const std::string& place,
   }
   if (!entry.is_object())
     return rule;
-  entry.allow_only({"rule", "why", "when", "confidence", "spread_m", "uses"});
+  entry.allow_only({"rule", "why", "when", "confidence", "spread_m", "uses", "measured"});
   rule.why = entry.string("why", rule.why);
   if (entry.has("when"))
     read_conditions(entry.at("when"), rule);

@@ -103,6 +103,7 @@ void add_leg(Row& row, const LevelStack& levels, int side) {
 void add_arm(Row& row, const LevelStack& levels, const ArmTrace& arm) {
   const double s = levels.stature(), sign = arm.left ? 1 : -1;
   const bool is_there = !arm.sections.empty();
+  const bool is_whole = is_there && !arm.is_stump; // or its hand at least is what is missing
   auto add_point = [&](const std::string& name, const std::optional<Vec3>& p) {
     row.add(name + "_x", p ? sign * p->x() / s : NONE);
     row.add(name + "_y", p ? p->y() / s : NONE);
@@ -115,9 +116,9 @@ void add_arm(Row& row, const LevelStack& levels, const ArmTrace& arm) {
   add_point("arm_pit", is_there && !arm.pit_hidden ? arm.axilla : std::nullopt);
   // the bodies learned from show it where the arm hangs; along a level arm it lies elsewhere
   add_point("arm_merge", is_there && arm.out.y() < MERGE_HANGS ? arm.merge : std::nullopt);
-  row.add("arm_length", is_there ? end / s : NONE);
+  row.add("arm_length", is_whole ? end / s : NONE);
   for (const double part : ARM) {
-    if (!is_there) {
+    if (!is_whole) {
       row.add(numbered("arm_girth", part), NONE);
       continue;
     }
@@ -127,11 +128,11 @@ void add_arm(Row& row, const LevelStack& levels, const ArmTrace& arm) {
             (at == arm.sections.end() ? arm.sections.back() : *at).girth / s);
   }
   const Vec3 fore =
-      is_there ? Vec3((arm.at(0.35 * end) - arm.at(0.5 * end)).normalized()) : Vec3::Constant(NONE);
+      is_whole ? Vec3((arm.at(0.35 * end) - arm.at(0.5 * end)).normalized()) : Vec3::Constant(NONE);
   row.add("forearm_x", sign * fore.x());
   row.add("forearm_y", fore.y());
   row.add("forearm_z", fore.z());
-  row.add("forearm_bent", is_there ? std::acos(std::clamp(fore.dot(arm.out), -1.0, 1.0)) : NONE);
+  row.add("forearm_bent", is_whole ? std::acos(std::clamp(fore.dot(arm.out), -1.0, 1.0)) : NONE);
 }
 
 /// Height of the highest skin in the strip at `x` to `x` + breadth on one side, below the head: the

@@ -101,4 +101,11 @@ std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist
       .middle; // of what is about as steep: sections lie centimetres apart
 }
 
+double upper_arm_without_hand(double reach, double usual, double share) {
+  constexpr double SURELY_SHORT = 0.85; // of the usual length
+  const double is_short =
+      std::clamp((SHORT_ARM - reach / usual) / (SHORT_ARM - SURELY_SHORT), 0.0, 1.0);
+  return share * ((1 - is_short) * std::min(reach, usual) + is_short * usual);
+}
+
 } // namespace sloper::body

@@ -19,4 +19,15 @@ std::optional<double> wrist_by_girth(const ArmTrace& arm, double least_to_palm, 
 /// @return m along the arm; empty where the girth does not rise
 std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist);
 
+/// Of the usual length from shoulder to wrist: a shorter arm without a hand ends in the forearm or
+/// above it.
+constexpr double SHORT_ARM = 0.95;
+
+/// How far the elbow is from the shoulder joint of an arm without a hand, m: a share of the arm
+/// where it ends about the wrist, and as far as people's where it is shorter than an arm.
+/// @param reach  of the arm's end from the shoulder joint, m
+/// @param usual  from the shoulder joint to the wrist, m
+/// @param share  of the upper arm in that
+double upper_arm_without_hand(double reach, double usual, double share);
+
 } // namespace sloper::body

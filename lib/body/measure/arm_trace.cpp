@@ -24,9 +24,10 @@ constexpr double JUMP = 1.35;       ///< of the girth, where the section runs in
 constexpr double LEAST_JUMP = 0.05; ///< and by this much at least: from its wrist a stout forearm
                                     ///< swells as fast (one of 48 bodies, by 0.035)
 constexpr double MIN_ARM = 0.24;    ///< a shorter trace is no arm
-constexpr double MIN_REACH = 0.27;  ///< from the waist over the skin to a hand: arms that touch the
-                                    ///< trunk from the elbow up lead to it by the shortest way
-constexpr double BLUNT = 0.0015;    ///< m
+constexpr double MIN_STUMP = 0.13; ///< unless it leads to an arm pit: a stump, cut off or a dummy's
+constexpr double MIN_REACH = 0.27; ///< from the waist over the skin to a hand: arms that touch the
+                                   ///< trunk from the elbow up lead to it by the shortest way
+constexpr double BLUNT = 0.0015;   ///< m
 
 /// Legs below the crotch, flooded from the calves.
 std::vector<char> leg_vertices(const LevelStack& levels, const TriangleMesh& skin) {
@@ -239,6 +240,13 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
     arm.sections.pop_back();
 }
 
+/// What was found of an arm that is none.
+void forget(ArmTrace& arm) {
+  arm.sections.clear();
+  arm.axilla = arm.axilla_front = arm.axilla_back = std::nullopt;
+  arm.is_stump = arm.pit_hidden = arm.pit_low = false;
+}
+
 } // namespace
 
 Vec3 ArmTrace::at(double along) const {
@@ -315,13 +323,18 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
         arm.triangles.push_back(static_cast<int>(f));
     }
     follow(arm, skin, reach, from_tip, scan_points, s);
-    if (arm.sections.empty() || arm.length() < MIN_ARM * s) {
+    if (arm.sections.empty() || arm.length() < MIN_STUMP * s) {
       arm.sections.clear();
       continue;
     }
+    arm.is_stump = arm.length() < MIN_ARM * s;
     const double end = arm.length();
     arm.out = (arm.at(end - 0.12 * s) - arm.at(end)).normalized();
     find_axilla(arm, levels, rules);
+    if (arm.is_stump && (arm.pit_hidden || arm.pit_low)) { // a forearm on the trunk, or a shoulder
+      forget(arm);
+      continue;
+    }
     if (!arm.pit_hidden)
       find_merge(arm, levels);
     arm.from_tip = std::move(from_tip);

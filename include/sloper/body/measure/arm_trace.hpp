@@ -27,6 +27,7 @@ struct ArmTrace {
   std::vector<double> from_tip;
   Vec3 out = Vec3::UnitX();   ///< unit, from shoulder to hand, over the upper arm
   std::optional<Vec3> axilla; ///< roof of the arm pit
+  bool is_stump = false;      ///< too short for an arm, but with a pit where people have it
   bool pit_hidden = false;    ///< no gap closes where an arm pit can be: it is placed by proportion
   bool pit_low = false;       ///< a gap closes there, lower than any arm pit
   bool pit_mirrored = false;  ///< hidden, and placed as the other arm's is
