@@ -11,8 +11,8 @@ namespace sloper::garment {
 namespace {
 
 constexpr double EDGE_BAND = 0.03; // m below the highest vertex: the upper edge
-// Of the garments of 53 files that came to rest clean none sank by more than 17 cm, and one whose
-// waistband had ended around the thighs by 43.
+// Of the garments of 57 files that came to rest clean none sank by more than 17 cm, of 16 fresh
+// ones none by more than 5, and one whose waistband had ended around the thighs by 43.
 constexpr double LEAST_SLIDE = 0.25; // m
 
 bool is_about_trunk(const pattern::PanelInfo& panel) {
