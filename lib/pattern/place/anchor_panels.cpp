@@ -18,6 +18,9 @@ constexpr double FAR_BELOW = 0.1; // m that a circle skirt is laid out below wha
                                   // least, for all to be hung anew
 constexpr double RING_TOLERANCE = 0.25; // of a ring's area, and of the radius of its waist
 
+constexpr double ANY_RING = 0.6; // of its area, where the hem is no arc about the tip: skirts of
+                                 // 11 random designs differ by 0.42 at most, a gore by 9
+
 static double area_of(const std::vector<Vec2>& outline) {
   double twice = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -100,8 +103,8 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
   for (int v : m_mesh.panels[k].outline)
     outline.push_back(uv(k, v));
   const double ring = 0.5 * spread * (outer * outer - inner * inner);
-  if (std::abs(area_of(outline) - ring) > RING_TOLERANCE * ring &&
-      !passes_below(outline, tip, inner))
+  const double off = std::abs(area_of(outline) - ring) / ring;
+  if (off > RING_TOLERANCE && (off > ANY_RING || !passes_below(outline, tip, inner)))
     return std::nullopt;
   return Sector{tip, spread, inner, outer - inner};
 }
