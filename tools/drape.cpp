@@ -8,6 +8,7 @@
 #include <sloper/garment/drape/drape_job.hpp>
 #include <sloper/garment/drape/judge_faults.hpp>
 #include <sloper/garment/drape/judge_roll_lines.hpp>
+#include <sloper/garment/fit/slid_down.hpp>
 #include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/fit/too_small.hpp>
 #include <sloper/garment/garment_json.hpp>
@@ -310,6 +311,8 @@ int run(cli::Tool& tool, Options& o) {
     garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before,
                            findings, tool.reporter());
     garment::judge_too_small(garment, body, outcome.report, {source, o.body, skin, !o.from.empty()},
+                             findings, tool.reporter());
+    garment::judge_slid_down(garment, body, outcome, {source, o.body, skin, !o.from.empty()},
                              findings, tool.reporter());
     garment::judge_roll_lines(garment, outcome, source, findings, tool.reporter());
     garment::judge_faults(garment, outcome);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sloper::pattern {
 
@@ -12,6 +13,39 @@ constexpr double SHOULDER_RAISE =
 constexpr double MOST_YOKE = 0.2;   // m that a yoke reaches over the shoulder
 constexpr double WIDE_SPREAD = 2.4; // rad between the sides of a panel: laid on a cylinder, a skirt
                                     // that is wider reaches beyond the arms
+
+constexpr double FAR_BELOW = 0.1; // m that a circle skirt is laid out below what it hangs from, at
+                                  // least, for all to be hung anew
+constexpr double RING_TOLERANCE = 0.25; // of a ring's area, and of the radius of its waist
+
+constexpr double ANY_RING = 0.6; // of its area, where the hem is no arc about the tip: skirts of
+                                 // 11 random designs differ by 0.42 at most, a gore by 9
+
+static double area_of(const std::vector<Vec2>& outline) {
+  double twice = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    twice += p.x() * q.y() - p.y() * q.x();
+  }
+  return 0.5 * std::abs(twice);
+}
+
+/// Whether cloth begins at the radius of the waist straight below the tip, as that of a ring does
+/// whose hem is longer or shorter in the middle than at its sides. What narrows downwards lies
+/// above the tip.
+static bool passes_below(const std::vector<Vec2>& outline, const Vec2& tip, double inner) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    if ((p.x() <= tip.x()) == (q.x() <= tip.x()))
+      continue;
+    const double share = (tip.x() - p.x()) / (q.x() - p.x());
+    const double down = tip.y() - (p.y() + share * (q.y() - p.y()));
+    if (down > 0)
+      nearest = std::min(nearest, down);
+  }
+  return std::abs(nearest - inner) < RING_TOLERANCE * inner;
+}
 
 std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
   std::array<Vec2, 2> all = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
@@ -65,16 +99,47 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
     return 0.5 * ((sides[0][end] - tip).norm() + (sides[1][end] - tip).norm());
   };
   const double inner = reach(0), outer = reach(1);
-  double area = 0; // which tells a ring from what narrows downwards
-  const auto& outline = m_mesh.panels[k].outline;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
-    area += 0.5 * (p.x() * q.y() - p.y() * q.x());
-  }
+  std::vector<Vec2> outline;
+  for (int v : m_mesh.panels[k].outline)
+    outline.push_back(uv(k, v));
   const double ring = 0.5 * spread * (outer * outer - inner * inner);
-  if (!(std::abs(std::abs(area) - ring) < 0.25 * ring))
+  const double off = std::abs(area_of(outline) - ring) / ring;
+  if (off > RING_TOLERANCE && (off > ANY_RING || !passes_below(outline, tip, inner)))
     return std::nullopt;
   return Sector{tip, spread, inner, outer - inner};
+}
+
+std::optional<double> Placer::hanging_height(std::size_t k, const Sector& sector) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int neighbour : m_graph.neighbours(static_cast<int>(k))) {
+    const std::size_t q = static_cast<std::size_t>(neighbour);
+    if (m_roles[q].region != Region::TRUNK || m_roles[q].side != m_roles[k].side ||
+        m_mesh.panels[q].layer != m_mesh.panels[k].layer)
+      continue;
+    const auto above = sector_of(q);
+    for (const auto& seam : m_graph.between(static_cast<int>(k), neighbour))
+      for (const auto& [here, there] : seam) {
+        if ((uv(k, here) - sector.tip).norm() > sector.inner + 0.5 * sector.length)
+          continue; // its hem: what hangs from it
+        const Vec2 p = uv(q, there);
+        lowest =
+            std::min(lowest, above ? above->height((p - above->tip).norm() - above->inner) : p.y());
+      }
+  }
+  if (!std::isfinite(lowest))
+    return std::nullopt;
+  return lowest - PANEL_GAP;
+}
+
+void Placer::hang_sectors() {
+  bool far = false;
+  for (std::size_t k = 0; k < m_roles.size(); ++k)
+    if (const auto sector = sector_of(k))
+      far = far || hanging_height(k, *sector).value_or(-1e300) > sector->top() + FAR_BELOW;
+  for (std::size_t tier = 0; far && tier < m_roles.size(); ++tier) // each hangs from the one above
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (const auto sector = sector_of(k))
+        m_spots[k].offset.y() += hanging_height(k, *sector).value_or(sector->top()) - sector->top();
 }
 
 bool Placer::hangs_on_shoulders(double top) const {

@@ -38,6 +38,7 @@ PlacementReport Placer::run() {
   make_groups();
   if (std::any_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return is_leg(r); }))
     level_trunk(m_mesh, m_graph, m_roles, m_spots);
+  hang_sectors();
   anchor_trunk();
   anchor_neck();
   make_rings();

@@ -35,6 +35,10 @@ struct Sector {
   double top() const {
     return tip.y() - inner * std::sin(0.5 * spread) / (0.5 * spread);
   } ///< mean height of the waist
+  /// As it is placed in folds, on a cone. @param down m from the waist, along the cloth
+  double height(double down) const { return top() - std::sqrt(1 - SLOPE * SLOPE) * down; }
+
+  static constexpr double SLOPE = 0.45; ///< of that cone: sine of the angle to the vertical
 };
 
 /// Places the panels of one pattern on one body.
@@ -83,6 +87,12 @@ private:
   std::array<Vec2, 2> bounds(const PanelGroup& group) const;
   /// Of a skirt's front or back that is nearly half a circle or more; nothing for others.
   std::optional<Sector> sector_of(std::size_t k) const;
+  /// Sectors of more than half a circle are drawn with their sides upwards, and were laid out so
+  /// below what they hang from. Where one is, all are brought up to it, tier by tier.
+  void hang_sectors();
+  /// Height at which a sector's waist is to hang, below what it is sewn to; nothing where it is
+  /// sewn to nothing.
+  std::optional<double> hanging_height(std::size_t k, const Sector& sector) const;
   /// Whether the garment hangs on the shoulders: front and back are sewn together near their tops,
   /// or there are sleeves or a collar.
   bool hangs_on_shoulders(double top) const;

@@ -118,21 +118,21 @@ static Vec2 in_folds(const WrapCurve& curve, double u, double ratio) {
 
 void Placer::place_in_folds(const PanelGroup& group, std::size_t k, const Sector& sector,
                             const Axis& axis, const std::vector<Vec2>& hull) {
-  constexpr double SLOPE = 0.45, FOLDS = 12; // sine of the angle to the vertical; around the body
+  constexpr double FOLDS = 12; // around the body
   const Vec2 low(plane_low(hull), hull_end(hull, -1)), high(plane_high(hull), hull_end(hull, 1)),
       center = 0.5 * (low + high);
   const Vec2 half = 0.5 * (high - low) + Vec2::Constant(GAP + group.extra + LAYER * m_depth[k]);
   put(k, [&](const Vec2& p) {
     const Vec2 d = p - sector.tip;
     const double rho = d.norm(), phi = std::atan2(d.x(), -d.y()), down = rho - sector.inner,
-                 out = SLOPE * std::max(down, 0.0);
+                 out = Sector::SLOPE * std::max(down, 0.0);
     const double radius = half.mean() + out, ratio = sector.spread * rho / (units::PI * radius);
     const double t = ratio > 1 ? phi * units::PI / sector.spread : phi * rho / radius;
     const double fold =
         ratio > 1 ? wave_slope(ratio) * radius / FOLDS * (1 - std::cos(FOLDS * t)) : 0;
     const Vec2 plane =
         center + (half + Vec2::Constant(out + fold)).cwiseProduct(Vec2(std::sin(t), std::cos(t)));
-    return axis.point(plane, sector.top() - std::sqrt(1 - SLOPE * SLOPE) * down);
+    return axis.point(plane, sector.height(down));
   });
 }
 

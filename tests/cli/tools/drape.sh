@@ -502,3 +502,14 @@ case_cloth_that_is_too_small_for_its_fabric_is_told_where_it_does_not_rest() {
   says "jersey"
   grep -q '"drape.cloth-too-small"' r.json || fail "the report does not say so"
 }
+
+# Two wide rectangles came to rest below the feet, exit status 0 and not a word.
+case_a_skirt_that_falls_off_is_told_and_fails() {
+  run 0 "${program%/*}/../samples/make-pattern" skirt --body a.body.json -o skirt.json
+  echo '{"format": "edits", "version": 1, "length_unit": "cm", "edits": [{"edit": "scale", "x": 1.7, "y": 1}]}' > wide.json
+  run 0 "${program%/*}/pattern-mesh" -q --edge-length 0.03 --edits wide.json --body a.body.json -o wide.panels.json skirt.json
+  run 4 "$program" -v --body a.body.json --panels wide.panels.json --report r.json -o out.json
+  says "drape.slid-down"
+  says "slides down too far to fit"
+  grep -q '"converged": false' out.json || fail "it counts as worn"
+}

@@ -2,7 +2,10 @@
 #include <support/straight_patterns.hpp>
 
 #include <gtest/gtest.h>
+#include <sloper/base/units.hpp>
 #include <sloper/pattern/place/place_panels.hpp>
+
+#include <cmath>
 
 namespace sloper::pattern::test {
 namespace {
@@ -84,6 +87,120 @@ TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
     placed += (mesh.placed[a] - mesh.placed[b]).norm();
   }
   EXPECT_NEAR(placed / drawn, 1, 0.1) << "folds take up what is too wide";
+}
+
+/// A circle skirt in two panels on a waistband, as GarmentCode draws it: half circles in front and
+/// behind, or 320 degrees each, whose sides are drawn upwards; with a second tier at their hem.
+class TieredSkirt {
+public:
+  /// @param spread_deg  of each panel of the upper tier
+  /// @param longer_m    by which the middle of the lower tier's back is longer than its sides
+  TieredSkirt(double spread_deg, double longer_m) {
+    const double spread = spread_deg * units::PI / 180, inner = WAIST / (2 * spread);
+    const double hem = spread * (inner + LENGTH);
+    for (const bool front : {true, false}) {
+      const std::string name = front ? "front" : "back";
+      add_band(name);
+      add_sector("skirt_" + name, spread, inner, 0);
+      add_sector("skirt_tier_" + name, units::PI, hem / units::PI, front ? -longer_m : longer_m);
+      sew("waistband_" + name, "hem", "skirt_" + name, "waist");
+      sew("skirt_" + name, "hem", "skirt_tier_" + name, "waist");
+    }
+    for (const std::string& piece :
+         {std::string("waistband"), std::string("skirt"), std::string("skirt_tier")}) {
+      sew(piece + "_front", "left", piece + "_back", "right");
+      sew(piece + "_back", "left", piece + "_front", "right");
+    }
+  }
+
+  Pattern pattern() const {
+    return own(R"({"format": "pattern", "version": 1, "length_unit": "m", "name": "skirt", )"
+               R"("panels": [)" +
+               m_panels + R"(], "seams": [)" + m_seams + "]}");
+  }
+
+  static constexpr double WAIST = 0.84, LENGTH = 0.25, BAND = 0.06; // m
+
+private:
+  static std::string point(double x, double y) {
+    return std::to_string(x) + ", " + std::to_string(y);
+  }
+
+  void add(const std::string& name, const std::string& outline) {
+    m_panels += (m_panels.empty() ? "" : ", ") + (R"({"name": ")" + name) + R"(", "outline": [)" +
+                outline + "]}";
+  }
+
+  void add_band(const std::string& name) {
+    const double half = 0.25 * WAIST;
+    add("waistband_" + name,
+        R"({"edge": "hem", "path": [["M", )" + point(-half, 0) + R"(], ["L", )" + point(half, 0) +
+            R"(]]}, {"edge": "right", "path": [["L", )" + point(half, BAND) +
+            R"(]]}, {"edge": "top", "path": [["L", )" + point(-half, BAND) +
+            R"(]]}, {"edge": "left", "path": [["L", )" + point(-half, 0) + "]]}");
+  }
+
+  /// The tip is at (0, 0), and the middle straight below it.
+  void add_sector(const std::string& name, double spread, double inner, double longer) {
+    constexpr int STEPS = 60;
+    std::string hem, waist;
+    for (int i = 0; i <= STEPS; ++i) {
+      const double phi = spread * (static_cast<double>(i) / STEPS - 0.5);
+      const double r = inner + LENGTH + longer * std::pow(std::cos(phi * units::PI / spread), 2);
+      hem += (i == 0 ? R"(["M", )" : R"(, ["L", )") + point(r * std::sin(phi), -r * std::cos(phi)) +
+             "]";
+      waist += (i == 0 ? R"(["L", )" : R"(, ["L", )") +
+               point(-inner * std::sin(phi), -inner * std::cos(phi)) + "]";
+    }
+    const std::string corner =
+        point(inner * std::sin(0.5 * spread), -inner * std::cos(0.5 * spread));
+    const std::string first = point(-(inner + LENGTH) * std::sin(0.5 * spread),
+                                    -(inner + LENGTH) * std::cos(0.5 * spread));
+    add(name, R"({"edge": "hem", "path": [)" + hem + R"(]}, {"edge": "right", "path": [["L", )" +
+                  corner + R"(]]}, {"edge": "waist", "path": [)" +
+                  waist.substr(waist.find(']') + 3) + R"(]}, {"edge": "left", "path": [["L", )" +
+                  first + "]]}");
+  }
+
+  void sew(const std::string& a, const std::string& edge_a, const std::string& b,
+           const std::string& edge_b) {
+    m_seams += (m_seams.empty() ? "" : ", ") + (R"({"name": ")" + a) + edge_a +
+               R"(", "a": [{"panel": ")" + a + R"(", "edge": ")" + edge_a +
+               R"("}], "b": [{"panel": ")" + b + R"(", "edge": ")" + edge_b +
+               R"(", "from": 1, "to": 0}]})";
+  }
+
+  std::string m_panels, m_seams;
+};
+
+double widest_gap(const PanelMesh& mesh) {
+  double gap = 0;
+  for (const MeshSeam& seam : mesh.seams)
+    for (std::size_t i = 0; i < seam.a.size(); ++i)
+      gap = std::max(gap, (mesh.placed[seam.a[i]] - mesh.placed[seam.b[i]]).norm());
+  return gap;
+}
+
+TEST(Placement, ATierThatIsLongerBehindThanAtItsSidesIsLaidInFoldsAsItsFrontIs) {
+  const Pattern pattern = TieredSkirt(180, 0.12).pattern();
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  for (const PanelInfo& panel : mesh.panels) {
+    double widest = 0;
+    for (int v : panel.outline)
+      widest = std::max(widest, std::abs(mesh.placed[v].x()));
+    EXPECT_LT(widest, 0.55) << panel.name << ", which reaches 0.8 m aside as it is drawn";
+  }
+  EXPECT_LT(widest_gap(mesh), 0.25);
+}
+
+TEST(Placement, ASkirtOfMoreThanACircleStartsBelowItsWaistbandAndItsTierBelowItsHem) {
+  const Pattern pattern = TieredSkirt(320, 0).pattern();
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  EXPECT_LT(widest_gap(mesh), 0.25) << "its sides are drawn upwards by 25 cm";
 }
 
 /// A skirt of four panels with side seams in two lengths and middle seams that leave each other
