@@ -26,7 +26,8 @@ constexpr double MOST_EDGE =
     0.03; // m, of the given mesh: with longer ones the coarse mesh saves nothing
 constexpr double SOFT_SKIN_TOLERANCE =
     1e-3; // m: by how much a dense skin may be simplified for soft contact
-constexpr double WIDEST_GAP = 0.06; // m of a stitch after sewing; wider ones were not seen
+constexpr double WIDEST_GAP = 0.06; // m of a stitch after sewing: of 15 garments that ended at 15
+                                    // to 59 mm 13 came clear; wider ones were not seen
 constexpr SoftRelaxing COARSE_RELAXING = {};
 constexpr SoftRelaxing FINE_RELAXING = {
     .steps = 15, .bending = 10, .reach_m = 0.008, .last_reach_m = 0.006, .cg_tolerance = 1e-2};
