@@ -48,7 +48,8 @@ case_a_shirt_made_over_for_a_body_that_it_is_too_tight_on_is_let_out() {
 # The collar is placed in the chin of a body with a shorter neck: what clearing leaves there, the drape brings out.
 case_a_collar_that_is_placed_in_a_chin_is_brought_out() {
   local edge=0.025
-  dress_from_shared plain/body_006 plain/body_004 sewing/dxf/shirt.dxf --accuracy draft --material denim
+  # sewn on the given mesh alone: by way of the coarse one the shirt hangs otherwise, and its drape there is ended as too small
+  dress_from_shared plain/body_006 plain/body_004 sewing/dxf/shirt.dxf --accuracy draft --material denim --set levels=1
   run 4 "$program" --accuracy draft --garment worn.json --to to.json --report report.json -o there.json
   says "does not fit"
   python3 -c 'import json
