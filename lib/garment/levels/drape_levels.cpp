@@ -89,7 +89,7 @@ private:
       sew_on_given_mesh(why);
   }
 
-  /// Once more by way of the coarse mesh; what crossed there comes to the given one flat.
+  /// Sews on the coarse mesh once more; what crossed when it was carried is sprung flat.
   void spring_apart() {
     m_reporter.info(SPRUNG_APART);
     m_at.before.repairs.push_back(SPRUNG_APART);

@@ -218,7 +218,7 @@ LevelsProgress read_levels(const Node& node) {
   if (!l.rung.empty() && std::find(names.begin(), names.end(), l.rung) == names.end())
     node.at("rung").fail("checkpoint.damaged"_id, "is no preset");
   l.on_given_mesh = node.at("on_given_mesh").boolean();
-  l.sprung = node.at("sprung").boolean();
+  l.sprung = node.has("sprung") && node.at("sprung").boolean(); // older ones do not name it
   l.before = read_progress(node.at("before"), node.at("settings"));
   MeshLevels& levels = l.before.levels;
   const Node meshes = node.at("meshes");

@@ -197,7 +197,7 @@ case_strain_that_sewing_left_evens_out_in_a_tight_shirt() {
   ((p99 < 600)) || fail "1 % of the weft is stretched by more than 0.0$p99; evened out it is 0.053 to 0.059, and was 0.063"
 }
 
-# A skirt of the cuff crosses itself on the coarse mesh. It was sewn on the given one, in five times the time.
+# A skirt of the cuff crosses itself on the coarse mesh. It was sewn on the given one.
 case_cloth_that_crosses_on_the_coarse_mesh_is_carried_again_stiff() {
   local shared=${SLOPER_SHARED:-}/data folder=${program%/*}
   [[ -d $shared/foreign ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data/foreign"; exit 77; }
