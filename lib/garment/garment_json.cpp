@@ -53,6 +53,8 @@ Json panel_json(const pattern::PanelInfo& panel) {
   j["grain"] = io::to_json(panel.grain);
   j["material"] = panel.material;
   j["layer"] = panel.layer;
+  if (panel.in_folds)
+    j["in_folds"] = true;
   j["part"] = panel.part;
   j["outline"] = Json(panel.outline);
   return j;
@@ -150,6 +152,7 @@ void read_panels(const Node& node, pattern::PanelMesh& mesh) {
       p.at("grain").fail("garment.damaged"_id, "the grain is not a unit direction");
     panel.material = p.string("material", "");
     panel.layer = p.integer("layer", 0);
+    panel.in_folds = p.boolean("in_folds", false);
     panel.part = p.string("part", "");
     panel.outline = read_indices(p.at("outline"), n_vertices);
     vertex += panel.n_vertices;

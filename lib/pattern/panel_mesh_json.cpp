@@ -80,6 +80,8 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
                       {"triangles", io::Json::array({p.first_triangle, p.n_triangles})},
                       {"outline", numbers(p.outline)},
                       {"st", st}});
+    if (p.in_folds)
+      panels.back()["in_folds"] = true;
   }
   doc["panels"] = panels;
   io::Json seams = io::Json::array();
@@ -139,6 +141,7 @@ PanelMesh read_panel_mesh(const std::string& path) {
     p.part = node.string("part", "");
     p.material = node.string("material", "");
     p.layer = node.integer("layer", 0);
+    p.in_folds = node.boolean("in_folds", false);
     p.grain = node.at("grain").vec2();
     p.first_vertex = node.at("vertices").at(0).integer();
     p.n_vertices = node.at("vertices").at(1).integer();

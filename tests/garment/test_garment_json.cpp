@@ -105,7 +105,8 @@ TEST_F(GarmentJson, ReadingAndWritingAgainGivesTheSameBytes) {
 }
 
 TEST_F(GarmentJson, EverythingOfAGarmentSurvives) {
-  const Garment a = two_squares();
+  Garment a = two_squares();
+  a.panels.panels[1].in_folds = true;
   write_garment(path("a.json"), a, "test");
   const Garment b = read_garment(path("a.json"));
   EXPECT_EQ(b.particle_of, a.particle_of);
@@ -117,6 +118,8 @@ TEST_F(GarmentJson, EverythingOfAGarmentSurvives) {
   EXPECT_EQ(b.panels.panels[1].name, "back");
   EXPECT_EQ(b.panels.panels[1].outline, a.panels.panels[1].outline);
   EXPECT_EQ(b.panels.panels[1].layer, 1);
+  EXPECT_TRUE(b.panels.panels[1].in_folds);
+  EXPECT_FALSE(b.panels.panels[0].in_folds);
   EXPECT_EQ(b.panels.seams[0].b, a.panels.seams[0].b);
   EXPECT_EQ(b.panels.ids[6].panel, 1);
   EXPECT_EQ(b.panels.ids[6].s, 1);

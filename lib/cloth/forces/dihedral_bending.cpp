@@ -63,7 +63,7 @@ double DihedralBendingEffect::energy(const std::vector<Vec3>& x) const {
     if (!angle.defined)
       continue;
     const double off = angle.value - m_rest_angle[h];
-    sum += 0.5 * m_stiffness[h] * off * off;
+    sum += 0.5 * m_scale * m_stiffness[h] * off * off;
   }
   return sum;
 }
@@ -88,11 +88,14 @@ void DihedralBendingEffect::add(StepContext& c) {
   const double damping = m_mesh.fabrics.empty() ? 0 : m_mesh.fabrics[0].damping_s / c.h;
   for (std::size_t h = 0; h < m_mesh.hinges.size(); ++h) {
     const Hinge& hinge = m_mesh.hinges[h];
+    const double stiffness = m_scale * m_stiffness[h];
+    if (stiffness == 0)
+      continue;
     const HingeAngle angle = measure_hinge(hinge, c.x, true);
     if (!angle.defined)
       continue;
-    const double moment = m_stiffness[h] * (angle.value - m_rest_angle[h]),
-                 k = m_stiffness[h] * (1 + damping);
+    const double moment = stiffness * (angle.value - m_rest_angle[h]);
+    const double k = stiffness * (1 + damping);
     add_hinge(c, hinge, m_slots[h], angle, moment, k);
   }
 }

@@ -135,6 +135,16 @@ std::string sew(Garment& cloth, CollisionBody& body, const DrapeSettings& settin
   return "";
 }
 
+/// @return whether any panel was placed in folds
+bool forget_folds(pattern::PanelMesh& mesh) {
+  bool any = false;
+  for (pattern::PanelInfo& panel : mesh.panels) {
+    any = any || panel.in_folds;
+    panel.in_folds = false;
+  }
+  return any;
+}
+
 } // namespace
 
 std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
@@ -148,7 +158,11 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
     cloth.panels = coarse_panels(given);
     cloth.scene.creases.clear(); // roll lines of the pattern are pressed, others come later
     prepare(met, garment);
-    if (const std::string why = sew(cloth, met, settings, reporter, report); !why.empty())
+    std::string why = sew(cloth, met, settings, reporter, report);
+    if (!why.empty() && forget_folds(cloth.panels)) { // stiff folds may keep a seam from closing
+      why = sew(cloth, met, settings, reporter, report);
+    }
+    if (!why.empty())
       return why;
   } catch (const Error& e) { // a pattern too narrow for coarse triangles, a body without bones
     if (e.kind() != ErrorKind::INPUT)

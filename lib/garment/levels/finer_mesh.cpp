@@ -114,6 +114,7 @@ void take_over(const pattern::PanelMesh& given, pattern::PanelMesh& mesh) {
         panel.part = same.part;
         panel.material = same.material;
         panel.layer = same.layer;
+        panel.in_folds = same.in_folds;
       }
   for (pattern::MeshSeam& seam : mesh.seams)
     for (const pattern::MeshSeam& same : given.seams)

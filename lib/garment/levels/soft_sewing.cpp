@@ -3,6 +3,7 @@
 #include <sloper/cloth/bending_plates.hpp>
 #include <sloper/cloth/contact/soft_body_contact.hpp>
 #include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
 #include <sloper/cloth/forces/edge_spring.hpp>
 #include <sloper/cloth/forces/gravity.hpp>
 #include <sloper/cloth/forces/half_space.hpp>
@@ -25,8 +26,11 @@ namespace {
 constexpr int SEWING_STEPS = 60;
 constexpr double SOFT_STEP_S = 0.1; // of the overdamped flow
 constexpr double SOFT_MOVE = 0.02;  // m, of the fastest particle in a step
-constexpr double BOARD = 1000;    // times the fabric's bending, while seams close; with 100 panels
-                                  // buckle: spread of 24 mm in place of none
+constexpr double BOARD = 1000; // times the fabric's bending, while seams close; with 100 panels
+                               // buckle: spread of 24 mm in place of none
+/// Cloth that was placed in folds is so much stiffer about its shape to the end: without self
+/// contact softer folds sink into each other.
+constexpr double FOLDED_BENDING = 10;
 constexpr double FIRST_PULL = 10; // of a stitch at its reach, in weights of a particle
 constexpr double LAST_PULL = 20;  // N, likewise
 constexpr int PULL_GROWS_FROM = 15, PULL_GROWS_TO = 50;
@@ -112,17 +116,30 @@ std::vector<std::array<int, 2>> sleeve_stitches(const Garment& garment) {
   return stitches;
 }
 
+/// By particle: whether all of it was placed in folds.
+std::vector<char> placed_in_folds(const Garment& garment) {
+  std::vector<char> folded(garment.position.size(), 1);
+  for (const pattern::PanelInfo& p : garment.panels.panels)
+    for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices && !p.in_folds; ++v)
+      folded[garment.particle_of[v]] = 0;
+  return folded;
+}
+
 /// Cloth in the middle of its way, by steps without a line search.
+///
+/// What makes it stiffer for a while keeps it flat, but for cloth that was placed in folds: that
+/// keeps the shape in which it comes.
 class SoftCloth {
 public:
   SoftCloth(Garment& garment, CollisionBody& body, double reach, double stiffness, double drag,
-            double tolerance, bool by_direction = true)
+            double tolerance, const StiffRegion& flat = {})
       : m_garment(garment), m_start(garment.position), m_mesh(cloth_mesh_of(garment)),
         m_hinges(m_mesh.hinges), m_velocity(garment.position.size(), Vec3::Zero()),
         m_solver(m_mesh, garment.position, m_velocity) {
     m_solver.emplace<cloth::EdgeSpringEffect>(m_mesh);
     m_solver.emplace<cloth::ShearEffect>(m_mesh);
-    add_bending(by_direction);
+    keep_folds(flat);
+    add_bending(flat.particles.empty() && !m_folds);
     const cloth::SoftBodyContactOptions contact{.reach_m = reach,
                                                 .stiffness_n_m3 = stiffness,
                                                 .drag = drag,
@@ -138,18 +155,22 @@ public:
   cloth::ClothSolver& solver() { return m_solver; }
   const cloth::ClothMesh& mesh() const { return m_mesh; }
   cloth::SoftBodyContactEffect* contact() { return m_contact; } ///< null without a body
-  /// Without bending by direction: stiffer in a region.
+  bool in_folds() const { return m_folds != nullptr; }
+  /// Without bending by direction: stiffer in a region, where nothing keeps folds.
   void set_bending(double times, const StiffRegion& stiff) {
-    for (std::size_t e = 0; e < m_hinges.size(); ++e) {
-      const auto& on = m_hinges[e].particle;
-      const bool in = std::any_of(on.begin(), on.end(), [&](int i) { return stiff.particles[i]; });
-      m_mesh.hinges[e].stiffness = (in ? stiff.bending : times) * m_hinges[e].stiffness;
-    }
+    for (std::size_t e = 0; e < m_hinges.size(); ++e)
+      m_mesh.hinges[e].stiffness =
+          (is_in(stiff, m_hinges[e]) ? stiff.bending : flat_bending(e, times)) *
+          m_hinges[e].stiffness;
+    if (m_folds)
+      m_folds->set_scale(times - 1);
   }
   void set_bending(double times) {
     m_mesh.bend_scale = times;
     for (std::size_t e = 0; e < m_hinges.size(); ++e)
-      m_mesh.hinges[e].stiffness = times * m_hinges[e].stiffness;
+      m_mesh.hinges[e].stiffness = flat_bending(e, times) * m_hinges[e].stiffness;
+    if (m_folds)
+      m_folds->set_scale(times - 1);
   }
   /// @return false where it is not finite: the garment is as it came
   bool step() {
@@ -162,6 +183,32 @@ public:
   const cloth::StepResult& last() const { return m_last; }
 
 private:
+  static bool is_in(const StiffRegion& region, const cloth::Hinge& hinge) {
+    return !region.particles.empty() &&
+           std::any_of(hinge.particle.begin(), hinge.particle.end(),
+                       [&](int i) { return region.particles[i] != 0; });
+  }
+  /// Of a hinge about flat cloth, where all of the cloth bends `times` as stiffly.
+  double flat_bending(std::size_t hinge, double times) const {
+    return m_folds && m_in_folds[hinge] ? 1 : times;
+  }
+  /// @param flat  where folds are not kept
+  void keep_folds(const StiffRegion& flat) {
+    const std::vector<char> folded = placed_in_folds(m_garment);
+    m_folded_mesh = m_mesh;
+    std::vector<double> angle;
+    for (cloth::Hinge& hinge : m_folded_mesh.hinges) {
+      const bool kept = std::all_of(hinge.particle.begin(), hinge.particle.end(),
+                                    [&](int i) { return folded[i] != 0; }) &&
+                        !is_in(flat, hinge);
+      m_in_folds.push_back(kept);
+      angle.push_back(cloth::hinge_angle(hinge, m_start));
+      if (!kept)
+        hinge.stiffness = hinge.firmness = 0;
+    }
+    if (std::find(m_in_folds.begin(), m_in_folds.end(), 1) != m_in_folds.end())
+      m_folds = &m_solver.emplace<cloth::DihedralBendingEffect>(m_folded_mesh, std::move(angle));
+  }
   /// By direction where a fabric does: the finer mesh must not find other folds to rest in.
   void add_bending(bool by_direction) {
     const auto& fabrics = m_mesh.fabrics;
@@ -190,8 +237,11 @@ private:
   const std::vector<Vec3> m_start;
   cloth::ClothMesh m_mesh;
   const std::vector<cloth::Hinge> m_hinges;
+  cloth::ClothMesh m_folded_mesh; ///< only hinges that keep folds have stiffness
+  std::vector<char> m_in_folds;   ///< #hinges: whether it keeps a fold
   std::vector<Vec3> m_velocity;
   cloth::ClothSolver m_solver;
+  cloth::DihedralBendingEffect* m_folds = nullptr;
   cloth::SoftBodyContactEffect* m_contact = nullptr;
   cloth::StepOptions m_options;
   cloth::StepResult m_last;
@@ -240,9 +290,11 @@ SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxi
                          double gravity_m_s2, Reporter& reporter) {
   SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance);
   cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
+  const double folded_bending = std::min(how.bending, FOLDED_BENDING);
   for (int k = 0; k < how.steps && !reporter.stop_requested(); ++k) {
     reporter.progress("relax", -1);
-    cloth.set_bending(std::pow(how.bending, 1 - share_of_way(k, 0, (how.steps + 1) / 2)));
+    const double bending = std::pow(how.bending, 1 - share_of_way(k, 0, (how.steps + 1) / 2));
+    cloth.set_bending(cloth.in_folds() ? std::max(bending, folded_bending) : bending);
     if (cloth.contact())
       cloth.contact()->set_reach(how.reach_m + (how.last_reach_m - how.reach_m) *
                                                    share_of_way(k, 0, how.steps - 1));
@@ -254,7 +306,7 @@ SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxi
 
 SoftRelaxed spring_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
                           const StiffRegion& stiff, double gravity_m_s2) {
-  SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance, false);
+  SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance, stiff);
   cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
   cloth.set_bending(how.bending, stiff);
   for (int k = 0; k < how.steps; ++k)

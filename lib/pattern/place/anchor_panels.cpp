@@ -60,10 +60,14 @@ std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
 std::optional<Sector> Placer::sector_of(std::size_t k) const {
   if (m_roles[k].part != "lower_body" || is_leg(m_roles[k]))
     return std::nullopt;
+  return sector_by_shape(k);
+}
+
+std::optional<Sector> Placer::sector_by_shape(std::size_t k) const {
   std::vector<std::array<Vec2, 2>> sides; // from the waist to the hem
   for (int q : m_graph.neighbours(static_cast<int>(k)))
     if (const PanelRole& other = m_roles[q];
-        other.part == "lower_body" && other.side != m_roles[k].side)
+        other.part == m_roles[k].part && other.side != m_roles[k].side)
       for (const auto& seam : m_graph.between(static_cast<int>(k), q))
         sides.push_back({uv(k, seam.front()[0]), uv(k, seam.back()[0])});
   if (sides.size() != 2)
@@ -129,6 +133,24 @@ std::optional<double> Placer::hanging_height(std::size_t k, const Sector& sector
   if (!std::isfinite(lowest))
     return std::nullopt;
   return lowest - PANEL_GAP;
+}
+
+void Placer::find_stated_skirts() {
+  constexpr double BELOW_CHEST = 0.72; // of the stature: arm pits; capes start at the shoulders
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    const PanelRole& role = m_roles[k];
+    if (m_pattern.panels[k].hint.part != "torso" || role.region != Region::TRUNK || !role.dv)
+      continue;
+    const auto sector = sector_by_shape(k);
+    const double stated = *role.dv - m_spots[k].offset.y(); // of the height 0 of its spot
+    if (sector && sector->top() + stated < BELOW_CHEST * m_space.stature())
+      found.push_back(k);
+  }
+  for (std::size_t k : found)
+    m_roles[k].part = "lower_body";
+  if (!found.empty())
+    m_spots = lay_out(m_pattern, m_mesh, m_graph, m_roles);
 }
 
 void Placer::hang_sectors() {

@@ -35,6 +35,7 @@ Placer::Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh,
 }
 
 PlacementReport Placer::run() {
+  find_stated_skirts();
   make_groups();
   if (std::any_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return is_leg(r); }))
     level_trunk(m_mesh, m_graph, m_roles, m_spots);

@@ -87,6 +87,11 @@ private:
   std::array<Vec2, 2> bounds(const PanelGroup& group) const;
   /// Of a skirt's front or back that is nearly half a circle or more; nothing for others.
   std::optional<Sector> sector_of(std::size_t k) const;
+  /// As sector_of(), of whatever part the panel is.
+  std::optional<Sector> sector_by_shape(std::size_t k) const;
+  /// Circle skirts whose hints say torso and a height: without it they would be capes, since the
+  /// sides of both are drawn level.
+  void find_stated_skirts();
   /// Sectors of more than half a circle are drawn with their sides upwards, and were laid out so
   /// below what they hang from. Where one is, all are brought up to it, tier by tier.
   void hang_sectors();

@@ -122,6 +122,7 @@ void Placer::place_in_folds(const PanelGroup& group, std::size_t k, const Sector
   const Vec2 low(plane_low(hull), hull_end(hull, -1)), high(plane_high(hull), hull_end(hull, 1)),
       center = 0.5 * (low + high);
   const Vec2 half = 0.5 * (high - low) + Vec2::Constant(GAP + group.extra + LAYER * m_depth[k]);
+  m_mesh.panels[k].in_folds = false;
   put(k, [&](const Vec2& p) {
     const Vec2 d = p - sector.tip;
     const double rho = d.norm(), phi = std::atan2(d.x(), -d.y()), down = rho - sector.inner,
@@ -130,6 +131,7 @@ void Placer::place_in_folds(const PanelGroup& group, std::size_t k, const Sector
     const double t = ratio > 1 ? phi * units::PI / sector.spread : phi * rho / radius;
     const double fold =
         ratio > 1 ? wave_slope(ratio) * radius / FOLDS * (1 - std::cos(FOLDS * t)) : 0;
+    m_mesh.panels[k].in_folds = m_mesh.panels[k].in_folds || ratio > 1;
     const Vec2 plane =
         center + (half + Vec2::Constant(out + fold)).cwiseProduct(Vec2(std::sin(t), std::cos(t)));
     return axis.point(plane, sector.height(down));
@@ -280,6 +282,8 @@ void Placer::place_gores(std::size_t index) {
   const double waist = m_space.level("waist_semantic", 0.63);
   const bool dress = ring.top > m_space.level("chest_axilla", 0.76) + 0.02;
   tube.shape(GAP + extra, dress ? waist : 1e300);
+  for (const Gore& gore : ring.gores)
+    m_mesh.panels[gore.panel].in_folds = tube.in_folds();
   for (const Side side : {Side::FRONT, Side::BACK, Side::RING}) {
     std::map<int, WrapCurve> curves;
     const Axis axis = m_space.trunk(side == Side::BACK);

@@ -134,6 +134,7 @@ void GoreTube::shape(double gap, double upright_to) {
   for (std::size_t j = n - 1; j-- > 0;)
     out[j] = std::min(out[j], std::max(out[j + 1] + mean[j + 1] + SLOPE * STEP - mean[j], 0.0));
   out = averaged(out, 3);
+  m_in_folds = false;
   for (std::size_t j = 0; j < n; ++j) {
     Row& row = m_rows[j];
     trace(row, radius[j], out[j], 0);
@@ -143,6 +144,7 @@ void GoreTube::shape(double gap, double upright_to) {
       trace(row, radius[j], out[j], 0);
     }
     if (row.length < row.cloth) {
+      m_in_folds = true;
       double low = 0, high = DEEPEST;
       for (int halving = 0; halving < 10; ++halving) {
         const double fold = 0.5 * (low + high);

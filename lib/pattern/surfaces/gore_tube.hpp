@@ -20,6 +20,8 @@ public:
   /// widens, so that cloth is not stretched
   void shape(double gap, double upright_to);
 
+  /// Whether cloth of the tube, as it was laid out last, is in folds.
+  bool in_folds() const { return m_in_folds; }
   Vec3 at(std::size_t gore, const Gore::Place& place,
           double out) const; ///< out: m further off the body
   /// m along the level row from the middle of the front, or from that of the back.
@@ -47,6 +49,7 @@ private:
   std::vector<Ring> m_skin; ///< support functions: all skin from the top down to each row
   Vec2 m_center = Vec2::Zero();
   std::vector<Row> m_rows;
+  bool m_in_folds = false;
 };
 
 } // namespace sloper::pattern

@@ -243,6 +243,31 @@ TEST(Jacobian, of_damping_is_its_time_times_the_stiffness_at_rest) {
   expect_damping<DihedralBendingEffect>(0.03);
 }
 
+TEST(Jacobian, of_dihedral_bending_that_is_scaled_about_a_rest_angle) {
+  const Grid g = make_grid(4, 0.1);
+  DihedralBendingEffect once(g.mesh, std::vector<double>(g.mesh.hinges.size(), 0.3));
+  DihedralBendingEffect thrice(g.mesh, std::vector<double>(g.mesh.hinges.size(), 0.3));
+  thrice.set_scale(3);
+  const Field x = jittered(g.x, 0.01, 5);
+  const Field force = linearised(once, x, 1e30).force, scaled = linearised(thrice, x, 1e30).force;
+  double largest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    largest = std::max(largest, force[i].norm());
+    EXPECT_LT((scaled[i] - 3 * force[i]).norm(), 1e-12);
+  }
+  EXPECT_GT(largest, 1e-9);
+  EXPECT_NEAR(thrice.energy(x), 3 * once.energy(x), 1e-12 * thrice.energy(x));
+  constexpr double STEP = 1e-6; // m
+  const Field way = random_field(x.size(), 6);
+  Field more = x, less = x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    more[i] += STEP * way[i];
+    less[i] -= STEP * way[i];
+  }
+  const double slope = (thrice.energy(more) - thrice.energy(less)) / (2 * STEP);
+  EXPECT_NEAR(slope, -dot(scaled, way), 1e-5 * std::abs(slope));
+}
+
 TEST(Jacobian, of_damping_takes_the_power_with_which_stretched_springs_change_length) {
   Fabric fabric;
   fabric.damping_s = 0.03;

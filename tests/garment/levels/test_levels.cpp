@@ -9,6 +9,7 @@
 #include <measures.hpp>
 #include <sloper/base/parallel.hpp>
 #include <sloper/base/progress.hpp>
+#include <sloper/base/units.hpp>
 #include <sloper/body/body_json.hpp>
 #include <sloper/body/measure_scan.hpp>
 #include <sloper/garment/body_model/collision_body.hpp>
@@ -211,6 +212,31 @@ TEST(SoftSewing, a_loop_that_crosses_itself_springs_flat_where_it_is_stiff) {
   };
   EXPECT_TRUE(crossing_after(1)) << "it is flat without being stiff, and the test shows nothing";
   EXPECT_FALSE(crossing_after(3e4));
+}
+
+TEST(SoftSewing, cloth_that_was_placed_in_folds_keeps_them) {
+  constexpr double WAVE = 0.2, DEPTH = 0.02; // m
+  const auto depth_after = [&](bool in_folds) {
+    Garment garment;
+    garment.panels = two_pieces(0.03);
+    for (pattern::PanelInfo& panel : garment.panels.panels)
+      panel.in_folds = in_folds;
+    for (Vec3& p : garment.panels.placed)
+      p.z() += DEPTH * std::cos(2 * units::PI * p.x() / WAVE);
+    CollisionBody nothing(nullptr, 0, silent_reporter());
+    sew_softly(garment, nothing, silent_reporter());
+    relax_softly(garment, nothing, {}, 0, silent_reporter());
+    double low = 1e300, high = -1e300; // of the front
+    const pattern::PanelInfo& front = garment.panels.panels[0];
+    for (int v = front.first_vertex; v < front.first_vertex + front.n_vertices; ++v) {
+      const double z = garment.position[garment.particle_of[v]].z();
+      low = std::min(low, z);
+      high = std::max(high, z);
+    }
+    return high - low;
+  };
+  const double kept = depth_after(true), flat = depth_after(false);
+  EXPECT_GT(kept, 1.5 * flat);
 }
 
 TEST(SoftSewing, coarse_cloth_bends_by_direction) {

@@ -192,6 +192,7 @@ TEST(Mesh, DocumentReadsBackAsItWasWritten) {
                                .string();
   mesh.placement = Placement::BODY;
   mesh.body_sha256 = "of a skin";
+  mesh.panels[1].in_folds = true;
   write_panel_mesh(path, mesh, "test");
   const PanelMesh back = read_panel_mesh(path);
   EXPECT_EQ(back.name, mesh.name);
@@ -210,6 +211,8 @@ TEST(Mesh, DocumentReadsBackAsItWasWritten) {
     EXPECT_EQ(back.seams[s].b, mesh.seams[s].b);
   }
   EXPECT_EQ(back.panels[1].outline, mesh.panels[1].outline);
+  EXPECT_TRUE(back.panels[1].in_folds);
+  EXPECT_FALSE(back.panels[0].in_folds);
   std::filesystem::remove(path);
   std::filesystem::remove(io::mesh_path_beside(path));
 }

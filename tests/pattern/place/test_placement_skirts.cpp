@@ -87,6 +87,35 @@ TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
     placed += (mesh.placed[a] - mesh.placed[b]).norm();
   }
   EXPECT_NEAR(placed / drawn, 1, 0.1) << "folds take up what is too wide";
+  for (const PanelInfo& panel : mesh.panels)
+    EXPECT_TRUE(panel.in_folds) << panel.name;
+}
+
+TEST(Placement, ACircleSkirtThatIsStatedBelowTheChestIsNoCapeWhateverItsName) {
+  // Its sides are drawn level, as shoulders are: it lay over the shoulders.
+  const auto top_at = [](double height_cm) {
+    const std::string place =
+        R"("place": {"part": "torso", "theta_deg": THETA, "anchor": [0, 0], "height": )" +
+        std::to_string(height_cm) + "}, ";
+    std::string half =
+        R"({"name": "front", PLACE "outline": [{"edge": "hem", "path": [["M", -50, 0], ["C", -50, -66, 50, -66, 50, 0]]},
+    {"edge": "l", "path": [["L", 13, 0]]}, {"edge": "waist", "path": [["C", 13, -17, -13, -17, -13, 0]]}, {"edge": "r", "path": [["L", -50, 0]]}]})";
+    half.replace(half.find("PLACE"), 5, place);
+    std::string back = half;
+    half.replace(half.find("THETA"), 5, "0");
+    back.replace(back.find("THETA"), 5, "180");
+    back.replace(back.find("front"), 5, "back");
+    const Pattern pattern = own(
+        R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" +
+        half + "," + back +
+        R"(], "seams": [{"name": "a", "a": [{"panel": "front", "edge": "l"}], "b": [{"panel": "back", "edge": "r", "from": 1, "to": 0}]},
+    {"name": "b", "a": [{"panel": "back", "edge": "l"}], "b": [{"panel": "front", "edge": "r", "from": 1, "to": 0}]}]})");
+    PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+    place_panels(pattern, waisted_body(), mesh);
+    return top_of(mesh);
+  };
+  EXPECT_NEAR(top_at(105), 1.05, 0.15);
+  EXPECT_GT(top_at(145), 1.3) << "a cape, by its height";
 }
 
 /// A circle skirt in two panels on a waistband, as GarmentCode draws it: half circles in front and

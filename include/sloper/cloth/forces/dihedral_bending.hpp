@@ -37,6 +37,8 @@ public:
   /// @param rest_angle  #hinges or empty (all flat), rad, in the sign of hinge_angle()
   explicit DihedralBendingEffect(const ClothMesh& mesh, std::vector<double> rest_angle = {});
   const char* name() const override { return "dihedral_bending"; }
+  /// From now on hinges are `times` (0 or more) as stiff as the mesh said when this was made.
+  void set_scale(double times) { m_scale = times; }
   /// False: it is made with settings of the scene.
   bool set_rest(const ClothMesh& /*mesh*/) override { return false; }
   void declare(Couplings& couplings) const override;
@@ -48,6 +50,7 @@ public:
 private:
   const ClothMesh& m_mesh;
   std::vector<double> m_rest_angle, m_stiffness; ///< by hinge; stiffness N m
+  double m_scale = 1;                            ///< of all stiffness
   std::vector<HingeSlots> m_slots;
 };
 
