@@ -18,7 +18,7 @@ constexpr int SETTLING_ROUNDS = 60;     // while the garment settles
 constexpr int MAX_PARTINGS = 4;         // in which cloth is parted from the body, while it settles
 constexpr double MOST_IN_FLIGHT = 0.01; // of the faces: more is no pinch but a garment too small
 constexpr double MOST_AT_START = 0.03;  // of the faces, before sewing: nothing pulls yet
-constexpr double PART_REACH = 0.3;      // m: deeper cloth has no way out along the skin's normal
+constexpr double PART_REACH = 0.3;      // m: deeper cloth does not get out along the skin's normal
 
 } // namespace
 

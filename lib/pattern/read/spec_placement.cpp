@@ -57,7 +57,7 @@ std::optional<std::array<Vec3, 2>> edge_ends(const io::Node& panels, const io::N
   return out;
 }
 
-/// Sum over the seams of how far their ends are apart, the nearer way round, in units of the file.
+/// Sum over the seams of how far their ends are apart, in the nearer order, in units of the file.
 double seam_gaps(const io::Node& source, EulerOrder order) {
   const io::Node panels = source.at("panels"), stitches = source.at("stitches");
   double sum = 0;
