@@ -22,16 +22,19 @@ constexpr int DIFFERENT_RED = 220, DIFFERENT_PALE = 120; // channels of a pixel 
 constexpr double RED_LIGHT = 0.2126, GREEN_LIGHT = 0.7152, BLUE_LIGHT = 0.0722; // ITU-R BT.709
 constexpr int BLOCK = 8, PIXELS = BLOCK * BLOCK; // of the structural similarity
 
+/// Opens the font. @throws Error INTERNAL where it is not there
+FT_Face open_face() {
+  FT_Library library = nullptr;
+  FT_Face opened = nullptr;
+  if (FT_Init_FreeType(&library) || FT_New_Face(library, SLOPER_FONT, 0, &opened))
+    throw Error(ErrorKind::INTERNAL, "render.no-font"_id, SLOPER_FONT, "",
+                "the font cannot be opened", "install the package fonts-dejavu-core");
+  return opened;
+}
+
 /// One FreeType face, opened once.
 FT_Face face() {
-  static FT_Face opened = [] {
-    FT_Library library = nullptr;
-    FT_Face f = nullptr;
-    if (FT_Init_FreeType(&library) || FT_New_Face(library, SLOPER_FONT, 0, &f))
-      throw Error(ErrorKind::INTERNAL, "render.no-font"_id, SLOPER_FONT, "",
-                  "the font cannot be opened", "install the package fonts-dejavu-core");
-    return f;
-  }();
+  static FT_Face opened = open_face();
   return opened;
 }
 
