@@ -238,7 +238,7 @@ int main(int argc, char** argv) {
       .check(cli::finite_in(0.5, 2.5, "m"));
   tool.option("--up", o.up,
               "axis along which the body stands, taken as it is (default: auto, the vertical is "
-              "told from the body)")
+              "found from the body)")
       .check(cli::one_of({"auto", "x", "y", "z"}));
   tool.flag("--torso-only", o.torso_only,
             "take a scan without legs too: what it shows is found, stature and floor are estimated "

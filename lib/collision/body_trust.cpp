@@ -1,4 +1,4 @@
-/// BodyCollider: which way the skin faces, and where its pseudonormals can be believed.
+/// BodyCollider: to which side the skin faces, and where its pseudonormals can be believed.
 #include <sloper/base/parallel.hpp>
 #include <sloper/collision/body_collider.hpp>
 #include <sloper/collision/intersections.hpp>
@@ -10,7 +10,7 @@ namespace sloper::collision {
 
 namespace {
 
-/// +1 where triangle t runs along the edge (low, high) from low to high, -1 the other way.
+/// +1 where triangle t runs along the edge (low, high) from low to high, -1 from high to low.
 int direction_along(const Triangle& t, const std::array<int, 2>& edge) {
   for (int k = 0; k < 3; ++k)
     if (t[k] == edge[0] && t[(k + 1) % 3] == edge[1])

@@ -22,16 +22,19 @@ constexpr int DIFFERENT_RED = 220, DIFFERENT_PALE = 120; // channels of a pixel 
 constexpr double RED_LIGHT = 0.2126, GREEN_LIGHT = 0.7152, BLUE_LIGHT = 0.0722; // ITU-R BT.709
 constexpr int BLOCK = 8, PIXELS = BLOCK * BLOCK; // of the structural similarity
 
+/// Opens the font. @throws Error INTERNAL where it is not there
+FT_Face open_face() {
+  FT_Library library = nullptr;
+  FT_Face opened = nullptr;
+  if (FT_Init_FreeType(&library) || FT_New_Face(library, SLOPER_FONT, 0, &opened))
+    throw Error(ErrorKind::INTERNAL, "render.no-font"_id, SLOPER_FONT, "",
+                "the font cannot be opened", "install the package fonts-dejavu-core");
+  return opened;
+}
+
 /// One FreeType face, opened once.
 FT_Face face() {
-  static FT_Face opened = [] {
-    FT_Library library = nullptr;
-    FT_Face f = nullptr;
-    if (FT_Init_FreeType(&library) || FT_New_Face(library, SLOPER_FONT, 0, &f))
-      throw Error(ErrorKind::INTERNAL, "render.no-font"_id, SLOPER_FONT, "",
-                  "the font cannot be opened", "install the package fonts-dejavu-core");
-    return f;
-  }();
+  static FT_Face opened = open_face();
   return opened;
 }
 
@@ -77,14 +80,17 @@ template<class F> void for_code_points(const std::string& text, F&& visit) {
   }
 }
 
+constexpr double LONGEST_LINE = 1e5; // pixels: a longer one is of a projection that failed
+
 /// Blends over all pixels of a box by coverage(x, y) of their middles.
 template<class F>
-void cover(io::Image& image, double x0, double y0, double x1, double y1, int color, F&& coverage) {
-  if (!(x1 >= 0 && y1 >= 0 && x0 <= image.width && y0 <= image.height))
+void cover(io::Image& image, const Vec2& low, const Vec2& high, int color, F&& coverage) {
+  if (!(high.x() >= 0 && high.y() >= 0 && low.x() <= image.width && low.y() <= image.height))
     return;
-  for (int y = std::max(0, static_cast<int>(y0)); y <= std::min<double>(image.height - 1, y1); ++y)
-    for (int x = std::max(0, static_cast<int>(x0)); x <= std::min<double>(image.width - 1, x1);
-         ++x) {
+  const double last_x = std::min<double>(image.width - 1, high.x()),
+               last_y = std::min<double>(image.height - 1, high.y());
+  for (int y = std::max(0, static_cast<int>(low.y())); y <= last_y; ++y)
+    for (int x = std::max(0, static_cast<int>(low.x())); x <= last_x; ++x) {
       const double alpha = std::clamp(coverage(x + 0.5, y + 0.5), 0.0, 1.0);
       if (alpha > 0)
         blend(image.at(x, y), color, alpha);
@@ -134,11 +140,11 @@ int text_width(const std::string& text, int size) {
   return width;
 }
 
-void draw_text(io::Image& image, const std::string& text, int x, int y, int size, Align align,
-               int color) {
-  if (align != Align::LEFT)
-    x -= text_width(text, size) / (align == Align::CENTER ? 2 : 1);
-  FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(size));
+void draw_text(io::Image& image, const std::string& text, int x, int y,
+               const Lettering& lettering) {
+  if (lettering.align != Align::LEFT)
+    x -= text_width(text, lettering.size) / (lettering.align == Align::CENTER ? 2 : 1);
+  FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(lettering.size));
   for_code_points(text, [&](unsigned long code) {
     if (FT_Load_Char(face(), code, FT_LOAD_RENDER))
       return;
@@ -150,39 +156,42 @@ void draw_text(io::Image& image, const std::string& text, int x, int y, int size
         if (px < 0 || py < 0 || px >= image.width || py >= image.height)
           continue;
         const int at = static_cast<int>(r) * glyph->bitmap.pitch + static_cast<int>(q);
-        blend(image.at(px, py), color, glyph->bitmap.buffer[at] / static_cast<double>(FULL));
+        blend(image.at(px, py), lettering.color,
+              glyph->bitmap.buffer[at] / static_cast<double>(FULL));
       }
     x += static_cast<int>(glyph->advance.x >> FREETYPE_BITS);
   });
 }
 
-void draw_text_halo(io::Image& image, const std::string& text, int x, int y, int size, Align align,
-                    int color) {
+void draw_text_halo(io::Image& image, const std::string& text, int x, int y,
+                    const Lettering& lettering) {
+  Lettering light = lettering;
+  light.color = 0xffffff;
   for (const auto& [dx, dy] :
        {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}})
-    draw_text(image, text, x + dx, y + dy, size, align, 0xffffff);
-  draw_text(image, text, x, y, size, align, color);
+    draw_text(image, text, x + dx, y + dy, light);
+  draw_text(image, text, x, y, lettering);
 }
 
-void draw_line(io::Image& image, double x0, double y0, double x1, double y1, double width,
-               int color, double opacity) {
-  const double dx = x1 - x0, dy = y1 - y0, length2 = dx * dx + dy * dy, r = 0.5 * width + 1;
-  if (!std::isfinite(length2) || length2 > 1e10)
+void draw_line(io::Image& image, const Vec2& a, const Vec2& b, const Stroke& stroke) {
+  const double dx = b.x() - a.x(), dy = b.y() - a.y(), length2 = dx * dx + dy * dy;
+  if (!std::isfinite(length2) || length2 > LONGEST_LINE * LONGEST_LINE)
     return;
-  cover(image, std::min(x0, x1) - r, std::min(y0, y1) - r, std::max(x0, x1) + r,
-        std::max(y0, y1) + r, color, [&](double x, double y) {
-          const double t =
-              length2 > 0 ? std::clamp(((x - x0) * dx + (y - y0) * dy) / length2, 0.0, 1.0) : 0;
-          return opacity *
-                 std::min(1.0, 0.5 * width + 0.5 - std::hypot(x - x0 - t * dx, y - y0 - t * dy));
+  const Vec2 around = Vec2::Constant(0.5 * stroke.width + 1);
+  cover(image, a.cwiseMin(b) - around, a.cwiseMax(b) + around, stroke.color,
+        [&](double x, double y) {
+          const double along = (x - a.x()) * dx + (y - a.y()) * dy;
+          const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0;
+          const double off = std::hypot(x - a.x() - t * dx, y - a.y() - t * dy);
+          return stroke.opacity * std::min(1.0, 0.5 * stroke.width + 0.5 - off);
         });
 }
 
-void draw_disc(io::Image& image, double cx, double cy, double radius, int color, double ring,
+void draw_disc(io::Image& image, const Vec2& center, double radius, int color, double ring,
                double opacity) {
-  const double r = radius + 1;
-  cover(image, cx - r, cy - r, cx + r, cy + r, color, [&](double x, double y) {
-    const double d = std::hypot(x - cx, y - cy);
+  const Vec2 around = Vec2::Constant(radius + 1);
+  cover(image, center - around, center + around, color, [&](double x, double y) {
+    const double d = std::hypot(x - center.x(), y - center.y());
     return opacity * (ring > 0 ? std::min(1.0, 0.5 * ring + 0.5 - std::abs(d - radius))
                                : std::min(1.0, radius + 0.5 - d));
   });
@@ -237,13 +246,14 @@ void draw_legend(io::Image& image, const Legend& legend) {
   const int every = 2 * step < font ? n / 2 : 2; // numbers do not cover each other
   for (int k = 0; k <= n; k += every)
     draw_text_halo(image, number(legend.high - k * (legend.high - legend.low) / n),
-                   left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
-  draw_text_halo(image, legend.title, right, top - font * 15 / 4, font, Align::RIGHT);
-  draw_text_halo(image, legend.unit, right, top - font * 19 / 8, font, Align::RIGHT);
+                   left + bar_width + font / 2, top + step * k + font * 3 / 8, {.size = font});
+  const Lettering at_right = {.size = font, .align = Align::RIGHT};
+  draw_text_halo(image, legend.title, right, top - font * 15 / 4, at_right);
+  draw_text_halo(image, legend.unit, right, top - font * 19 / 8, at_right);
   for (int line = 0; line < lines; ++line) {
     const std::string& text = notes[line];
     const int y = top + n * step + below_bar(line);
-    draw_text_halo(image, text, right, y, font, Align::RIGHT);
+    draw_text_halo(image, text, right, y, at_right);
     if (legend.has_gaps && line == lines - 1) {
       const int x0 = right - text_width(text, font) - 3 * font / 2;
       fill(image, x0, y - font, x0 + font, y, no_value_color());
@@ -283,8 +293,8 @@ io::Image contact_sheet(const std::vector<io::Image>& images,
     for (int y = 0; y < images[k].height; ++y)
       std::copy_n(images[k].at(0, y), 4 * images[k].width, sheet.at(x0, y0 + y));
     if (captioned && k < captions.size())
-      draw_text(sheet, captions[k], left[column] + width[column] / 2, y0 + height[row] + font, font,
-                Align::CENTER);
+      draw_text(sheet, captions[k], left[column] + width[column] / 2, y0 + height[row] + font,
+                {.size = font, .align = Align::CENTER});
   }
   return sheet;
 }

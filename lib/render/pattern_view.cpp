@@ -144,8 +144,8 @@ void for_each_seam_side(const Sheet& sheet, const Camera& camera, const io::Imag
 
 void draw_seam(io::Image& image, const SeamSide& side, double width) {
   for (std::size_t k = 0; k + 1 < side.run.size(); ++k) {
-    const Vec2 &a = side.at[side.run[k]], &b = side.at[side.run[k + 1]];
-    draw_line(image, a.x(), a.y(), b.x(), b.y(), width, seam_color(side.seam));
+    const Stroke stroke = {.width = width, .color = seam_color(side.seam)};
+    draw_line(image, side.at[side.run[k]], side.at[side.run[k + 1]], stroke);
   }
 }
 
@@ -191,10 +191,10 @@ void draw_seams(io::Image& image, const Sheet& sheet, const Camera& camera, doub
     return;
   for_each_seam_side(sheet, camera, image, [&](const SeamSide& side) {
     if (const std::optional<Vec2> place = number_place(side, font))
-      draw_text_halo(image, std::to_string(side.seam + 1),
-                     static_cast<int>(std::lround(place->x())),
-                     static_cast<int>(std::lround(place->y() + HALF_DIGIT * font)), font,
-                     Align::CENTER, seam_color(side.seam) >> 1 & 0x7f7f7f);
+      draw_text_halo(
+          image, std::to_string(side.seam + 1), static_cast<int>(std::lround(place->x())),
+          static_cast<int>(std::lround(place->y() + HALF_DIGIT * font)),
+          {.size = font, .align = Align::CENTER, .color = seam_color(side.seam) >> 1 & 0x7f7f7f});
   });
 }
 
@@ -240,9 +240,8 @@ void draw_edges(io::Image& image, const Scene& scene, const Sheet& sheet, const 
         const Vec2 along = line[line.size() / 2 + 1] - line[line.size() / 2 - 1];
         if (!texts) {
           for (std::size_t k = 0; k + 1 < line.size() && !marks.empty(); ++k)
-            draw_line(image, line[k].x(), line[k].y(), line[k + 1].x(), line[k + 1].y(), 5 * unit,
-                      ASKED_EDGE);
-          draw_disc(image, line.front().x(), line.front().y(), CORNER_DOT * unit, EDGE_NAME);
+            draw_line(image, line[k], line[k + 1], {.width = 5 * unit, .color = ASKED_EDGE});
+          draw_disc(image, line.front(), CORNER_DOT * unit, EDGE_NAME);
           continue;
         }
         if (marks.empty() && (line.back() - line.front()).norm() < font)
@@ -257,16 +256,26 @@ void draw_edges(io::Image& image, const Scene& scene, const Sheet& sheet, const 
         const double side = marks.empty() ? 1 : -1;
         const Vec2 at = line[line.size() / 2] + side * aside * inwards;
         draw_text_halo(image, text, static_cast<int>(std::lround(at.x())),
-                       static_cast<int>(std::lround(at.y() + HALF_DIGIT * font)), font,
-                       Align::CENTER, marks.empty() ? EDGE_NAME : ASKED_NAME);
+                       static_cast<int>(std::lround(at.y() + HALF_DIGIT * font)),
+                       {.size = font,
+                        .align = Align::CENTER,
+                        .color = marks.empty() ? EDGE_NAME : ASKED_NAME});
       }
     }
 }
 
-/// Name, size and grain of a panel, on it or, where it has no room, above it. @param mapped colours
-/// of a map lie below: text has a halo
-void draw_name(io::Image& image, const Sheet& sheet, const Sheet::Panel& panel,
-               const Camera& camera, double unit, int font, bool mapped) {
+/// How a sheet of panels lies in a picture.
+struct SheetView {
+  const Sheet& sheet;
+  const Camera& camera;
+  double unit; // pixels, of a fine line
+  int font;    // pixels
+  bool mapped; // colours of a map lie below: text has a halo
+};
+
+/// Name, size and grain of a panel, on it or, where it has no room, above it.
+void draw_name(io::Image& image, const SheetView& view, const Sheet::Panel& panel) {
+  const auto& [sheet, camera, unit, font, mapped] = view;
   const Vec3 at = camera.pixel(middle_of(sheet, panel), image.width, image.height);
   const Vec2 size = panel.high - panel.low;
   const double pixels_per_m = 0.5 * image.height / camera.half_height,
@@ -279,27 +288,28 @@ void draw_name(io::Image& image, const Sheet& sheet, const Sheet::Panel& panel,
   const bool outside =
       narrow || std::max(text_width(panel.info->name, font), text_width(text, font - 2)) >
                     0.8 * size.x() * pixels_per_m;
+  const Lettering name = {.size = font, .align = Align::CENTER, .color = color};
+  const Lettering measures = {.size = font - 2, .align = Align::CENTER, .color = color};
   if (outside) {
     const Vec3 above = camera.pixel(Vec3(0.5 * (panel.low.x() + panel.high.x()), panel.high.y(), 0),
                                     image.width, image.height);
     draw_text(image, panel.info->name, static_cast<int>(above.x()),
-              static_cast<int>(above.y() - 0.45 * font), font, Align::CENTER, color);
+              static_cast<int>(above.y() - 0.45 * font), name);
   } else {
-    write(image, panel.info->name, static_cast<int>(at.x()), static_cast<int>(at.y()), font,
-          Align::CENTER, color);
-    write(image, text, static_cast<int>(at.x()), static_cast<int>(at.y() + 1.3 * font), font - 2,
-          Align::CENTER, color);
+    write(image, panel.info->name, static_cast<int>(at.x()), static_cast<int>(at.y()), name);
+    write(image, text, static_cast<int>(at.x()), static_cast<int>(at.y() + 1.3 * font), measures);
   }
   if (narrow)
     return;
   const double base =
       outside ? at.y() + 0.5 * arrow : at.y() - 1.6 * font; // the grain: warp runs upwards
+  const Vec2 foot(at.x(), base), tip(at.x(), base - arrow);
   if (mapped)
-    draw_line(image, at.x(), base, at.x(), base - arrow, 3 * unit, 0xffffff);
-  draw_line(image, at.x(), base, at.x(), base - arrow, 1.2 * unit, color);
+    draw_line(image, foot, tip, {.width = 3 * unit, .color = 0xffffff});
+  const Stroke fine = {.width = 1.2 * unit, .color = color};
+  draw_line(image, foot, tip, fine);
   for (double side : {-1.0, 1.0})
-    draw_line(image, at.x(), base - arrow, at.x() + side * 4 * unit, base - arrow + 7 * unit,
-              1.2 * unit, color);
+    draw_line(image, tip, Vec2(at.x() + side * 4 * unit, base - arrow + 7 * unit), fine);
 }
 
 } // namespace
@@ -376,11 +386,12 @@ io::Image draw_pattern(const Scene& scene, const DrawOptions& options, bool name
   if (name_edges)
     draw_edges(image, scene, sheet, camera, unit, font - 1);
   for (const Sheet::Panel& panel : sheet.panels)
-    draw_name(image, sheet, panel, camera, unit, font, mapped);
+    draw_name(image, {sheet, camera, unit, font, mapped}, panel);
   const double bar = 0.1 * pixels_per_m, y = options.height - 12 * unit;
-  draw_line(image, 12 * unit, y, 12 * unit + bar, y, 2 * unit, 0x303030);
+  draw_line(image, Vec2(12 * unit, y), Vec2(12 * unit + bar, y),
+            {.width = 2 * unit, .color = 0x303030});
   draw_text(image, "10 cm", static_cast<int>(16 * unit + bar), static_cast<int>(y + 0.35 * font),
-            font);
+            {.size = font});
   return image;
 }
 

@@ -33,14 +33,14 @@ public:
     const Vec3 p = at(a), q = at(b);
     const bool hidden =
         hide && !(m_renderer.is_visible(p, m_slack) && m_renderer.is_visible(q, m_slack));
-    draw_line(m_image, p.x(), p.y(), q.x(), q.y(), width * unit, color, hidden ? 0.18 : 1);
+    draw_line(m_image, p.head<2>(), q.head<2>(),
+              {.width = width * unit, .color = color, .opacity = hidden ? 0.18 : 1});
   }
   void disc(const Vec3& a, double radius, int color, bool filled) {
-    const Vec3 p = at(a);
+    const Vec2 p = at(a).head<2>();
     if (filled)
-      draw_disc(m_image, p.x(), p.y(), (radius + 1.2) * unit, 0xffffff);
-    draw_disc(m_image, p.x(), p.y(), radius * unit, color, filled ? 0 : 1.2 * unit,
-              filled ? 1 : 0.45);
+      draw_disc(m_image, p, (radius + 1.2) * unit, 0xffffff);
+    draw_disc(m_image, p, radius * unit, color, filled ? 0 : 1.2 * unit, filled ? 1 : 0.45);
   }
   int font() const { return label_font(m_image.height); }
   io::Image& image() { return m_image; }
@@ -109,10 +109,10 @@ void draw_labels(Pen& pen, std::vector<Label> labels, int right_edge) {
     for (std::size_t k = 0; k < column.size(); ++k) {
       const int width = text_width(column[k].text, font), margin = font / 2;
       const double edge = right ? right_edge - margin - width - 4 : margin + width + 4;
-      draw_line(image, edge, y[k], column[k].at.x(), column[k].at.y(), 0.8 * pen.unit,
-                column[k].color, 0.55);
+      draw_line(image, Vec2(edge, y[k]), column[k].at.head<2>(),
+                {.width = 0.8 * pen.unit, .color = column[k].color, .opacity = 0.55});
       draw_text_halo(image, column[k].text, right ? right_edge - margin - width : margin,
-                     static_cast<int>(y[k] + 0.36 * font), font, Align::LEFT, INK);
+                     static_cast<int>(y[k] + 0.36 * font), {.size = font, .color = INK});
     }
   }
 }

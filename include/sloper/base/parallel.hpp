@@ -20,7 +20,7 @@ void spread_chunks(std::size_t n, std::size_t grain, ChunkWork work, const void*
 
 /// Calls body(begin, end) over [0, n) cut into fixed chunks of `grain`, in any order, on
 /// thread_count() threads. Chunk borders do not depend on the thread count; write only to what
-/// belongs to the chunk. Copies no capture.
+/// belongs to the chunk. Copies no capture. @param grain  items in a chunk, at least 1
 template<class Body> void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
   if (thread_count() == 1 || n <= grain) {
     for (std::size_t begin = 0; begin < n; begin += grain)

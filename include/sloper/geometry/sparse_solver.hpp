@@ -1,6 +1,6 @@
 #pragma once
-/// A sparse symmetric positive definite system, factorised once and solved often. Eigen's
-/// factorisation, dear to compile, stays behind this.
+/// A sparse symmetric positive definite system, factorised once and solved often. The source holds
+/// Eigen's part, slow to compile. Of a singular matrix solve() returns numbers without meaning.
 #include <Eigen/SparseCore>
 #include <memory>
 

@@ -6,26 +6,35 @@
 namespace sloper::render {
 /// Where the given x lies on the text.
 enum class Align { LEFT, CENTER, RIGHT };
+/// How a text is drawn.
+struct Lettering {
+  int size;                  ///< height in pixels
+  Align align = Align::LEFT; ///< end of the baseline that is given
+  int color = 0x282828;      ///< 0xRRGGBB
+};
 /// Draws UTF-8 text.
-/// @param x, y  pixels: `align` end of its baseline
-/// @param size  height in pixels
-/// @param color  0xRRGGBB
+/// @param x, y  pixels: the end of its baseline that Lettering::align names
 /// @throws Error INTERNAL without a font
-void draw_text(io::Image& image, const std::string& text, int x, int y, int size,
-               Align align = Align::LEFT, int color = 0x282828);
+void draw_text(io::Image& image, const std::string& text, int x, int y, const Lettering& lettering);
 /// The same on a light halo, to be read on any colour.
-void draw_text_halo(io::Image& image, const std::string& text, int x, int y, int size,
-                    Align align = Align::LEFT, int color = 0x282828);
+void draw_text_halo(io::Image& image, const std::string& text, int x, int y,
+                    const Lettering& lettering);
 int text_width(const std::string& text, int size); ///< pixels
-/// A straight line with soft edges.
-/// @param x0, y0, x1, y1, width  pixels
+/// How a line is drawn.
+struct Stroke {
+  double width;       ///< pixels
+  int color;          ///< 0xRRGGBB
+  double opacity = 1; ///< 0..1
+};
+/// A straight line with soft edges. Nothing is drawn of one that is longer than 100,000 pixels, or
+/// not finite.
+/// @param a, b  its ends, pixels
+void draw_line(io::Image& image, const Vec2& a, const Vec2& b, const Stroke& stroke);
+/// A disc, or with `ring` > 0 a ring that wide, with soft edges.
+/// @param center, radius, ring  pixels
 /// @param color  0xRRGGBB
 /// @param opacity  0..1
-void draw_line(io::Image& image, double x0, double y0, double x1, double y1, double width,
-               int color, double opacity = 1);
-/// A disc, or with `ring` > 0 a ring that wide, with soft edges. Arguments as of
-/// draw_line().
-void draw_disc(io::Image& image, double x, double y, double radius, int color, double ring = 0,
+void draw_disc(io::Image& image, const Vec2& center, double radius, int color, double ring = 0,
                double opacity = 1);
 /// Colour bar of eight steps along the right edge with ticks, unit and quantiles.
 void draw_legend(io::Image& image, const Legend& legend);

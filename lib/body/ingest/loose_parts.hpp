@@ -4,7 +4,7 @@
 #include <sloper/body/body.hpp>
 namespace sloper::body {
 
-/// What is told apart from the body, and what may have to be.
+/// Vertices that are not the body, and findings on those that may not be.
 struct LooseParts {
   std::vector<char> is_extra; ///< one per vertex of the scan; empty where there is none
   std::vector<Finding> findings;

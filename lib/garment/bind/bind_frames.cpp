@@ -24,7 +24,7 @@ constexpr double MIN_RADIUS = 0.01;     // m, no part is thinner
 constexpr double MIN_MARK_DISTANCE =
     0.04; // m, closer marks say more about their noise than about the body
 
-/// Fractions of the way from shoulder to hand tip, for bodies whose elbow or wrist was not found.
+/// Fractions of the arm from shoulder to hand tip, for bodies whose elbow or wrist was not found.
 constexpr double ELBOW_FRACTION = 0.43, WRIST_FRACTION = 0.74;
 
 const char* MARKS_BY_WEIGHT[] = {"neck_side", "crotch", "acromion", "axilla",

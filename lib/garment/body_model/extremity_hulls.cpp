@@ -70,7 +70,7 @@ std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
         kept.push_back(t);
         continue;
       }
-      for (int k = 0; k < 3; ++k) // an edge between two seen faces comes twice, once each way
+      for (int k = 0; k < 3; ++k) // an edge between two seen faces comes twice, in both senses
         if (!rim.erase({t[(k + 1) % 3], t[k]}))
           rim.insert({t[k], t[(k + 1) % 3]});
     }
@@ -88,7 +88,7 @@ ExtremityHulls::ExtremityHulls(const body::Body& body, unsigned ends) : m_mesh(b
     Ends end;
     body::Part part;
     std::string root, tip;
-    double from; // of the way from the root to the tip
+    double from; // fraction of the length from the root to the tip
   };
   for (const Candidate& c : {Candidate{HANDS, body::Part::ARM_L, "wrist_l", "hand_tip_l", 0},
                              Candidate{HANDS, body::Part::ARM_R, "wrist_r", "hand_tip_r", 0},

@@ -92,7 +92,7 @@ private:
     if (finish == Finish::REPLAY)
       m_live.adopt(m_live.go_to_start());
     m_session.rebuild_cloth(false);
-    m_session.forget_steps(); // the limit is for the way to rest
+    m_session.forget_steps(); // the limit is for the steps to rest
     m_session.settle();
     m_report.drape = m_session.finish();
   }
@@ -147,7 +147,7 @@ private:
     show(f);
   }
 
-  /// One step on the way to rest. @param busy  on a budget and without a line search, as an answer
+  /// One step towards rest. @param busy  on a budget and without a line search, as an answer
   /// is: sooner done
   void go_on(bool busy) {
     m_session.forget_steps();

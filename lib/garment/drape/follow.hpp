@@ -9,7 +9,7 @@
 
 namespace sloper::garment {
 
-/// The frame that answers an edit is a state on the way to rest, so its solve has a fixed budget:
+/// The frame that answers an edit is a state before rest, so its solve has a fixed budget:
 /// conjugate gradients go down in energy from the first iteration on, and the frames after it go on
 /// from there. A budget of iterations, not of time: same lines, same bytes.
 inline constexpr int FOLLOW_ANSWER_ITERATIONS = 12;

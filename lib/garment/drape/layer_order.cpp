@@ -16,7 +16,7 @@ constexpr double LEAST_GAP = 5e-4; // m: inner cloth is not tucked nearer to the
 constexpr double PUSH = 5e-4; // m: apart, of an edge and the face that it crosses, in one round
 constexpr int ROUNDS = 200;
 
-/// Moves what of `inner` lies beyond `outer` to below it. The way from the skin is the order; it
+/// Moves what of `inner` lies beyond `outer` to below it. The distance from skin is the order; it
 /// also shows cloth that is too near.
 void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer,
           const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
@@ -44,7 +44,7 @@ void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer,
   }
 }
 
-/// One round: edges and faces of different layers that cross go apart along the way from the skin.
+/// One round: edges and faces of different layers that cross go apart square to the skin.
 /// @return crossings found
 std::size_t part_layers(std::vector<Vec3>& x, const std::vector<int>& layer,
                         const std::vector<Triangle>& triangles, const collision::Topology& topology,

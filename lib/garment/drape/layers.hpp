@@ -2,7 +2,7 @@
 /// Garments over each other: a jacket over a shirt, a shirt tucked into trousers.
 ///
 /// Each outer garment is first draped alone, with a wider gap to the skin. Then inner cloth that
-/// lies beyond it is tucked in, along the shortest way to the skin, until no element of one layer
+/// lies beyond it is tucked in, along the shortest path to the skin, until no element of one layer
 /// crosses another; from that state all garments come to rest together, and self contact keeps the
 /// order as it keeps any cloth from passing through cloth. So layers need no force of their own. In
 /// motion all go with the body. Test: tests/garment/drape/test_layers.cpp

@@ -25,7 +25,7 @@ constexpr double REACH_BEYOND = 0.03; // m above and below a level that cloth mu
                                       // slide to where it is wide enough
 constexpr double SLIDE_BEYOND =
     0.06; // m as far as cloth that is tight slides at most: three times what was seen, it holds on
-constexpr double SLIDE_STRIDE = 0.01; // m between sections of the skin on that way
+constexpr double SLIDE_STRIDE = 0.01; // m between sections of the skin on that path
 constexpr double SLID = 0.10;   // m that what hangs from the waist may sink wherever it is; held by
                                 // the hip it may more, and that is said
 constexpr double TRAILS = 0.01; // m below the soles: such a hem is trodden on

@@ -12,7 +12,7 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double DEEPEST_M = 0.05; // in the body: deeper, and no way out is known
+constexpr double DEEPEST_M = 0.05; // in the body: of deeper points no direction outwards is known
 
 /// The rotation of each particle's surroundings.
 std::vector<Mat3> rotations_of(const std::vector<Vec3>& before, const std::vector<Vec3>& after,

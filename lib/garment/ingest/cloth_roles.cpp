@@ -39,7 +39,7 @@ Vec3 normal_of(const MeshSurface& s, int f) {
   return area_normal(s.position[t[0]], s.position[t[1]], s.position[t[2]]).normalized();
 }
 
-/// Share of the way from a to b at which a triangle is met, or 2.
+/// Fraction of the segment from a to b at which a triangle is met, or 2.
 double met_at(const MeshSurface& s, int f, const Vec3& a, const Vec3& b) {
   const Triangle& t = s.triangles[f];
   const Vec3 &p = s.position[t[0]], e1 = s.position[t[1]] - p, e2 = s.position[t[2]] - p, d = b - a;

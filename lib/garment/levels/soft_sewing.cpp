@@ -32,7 +32,7 @@ constexpr double BOARD = 1000; // times the fabric's bending, while seams close;
 /// contact softer folds sink into each other.
 constexpr double FOLDED_BENDING = 10;
 constexpr double FIRST_PULL = 10; // of a stitch at its reach, in weights of a particle
-constexpr double LAST_PULL = 20;  // N, likewise
+constexpr double LAST_PULL = 20;  // N, of a stitch at its reach
 constexpr int PULL_GROWS_FROM = 15, PULL_GROWS_TO = 50;
 constexpr double STITCH_REACH = 0.05; // m: the pull does not grow beyond this gap
 constexpr double DRAWN_IN = 0.35; // of the body's thickness, until the panels are around it; with

@@ -13,7 +13,7 @@ pattern::Path fold_path(const Garment& garment, const SceneCrease& crease);
 bool is_meshed(const Garment& garment, const SceneCrease& crease);
 
 /// Pairs of particles (each in rising order, sorted) that the cloth is folded along: edges on the
-/// line, or where the mesh has none there, the shortest way over edges from place to place.
+/// line, or where the mesh has none there, the shortest path over edges from place to place.
 std::vector<std::array<int, 2>> fold_edges(const Garment& garment, const SceneCrease& crease);
 
 } // namespace sloper::garment

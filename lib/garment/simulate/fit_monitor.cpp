@@ -15,7 +15,7 @@ constexpr double DECAY_RATIO = 0.5;         // of the change before: the change 
 constexpr double NEGLIGIBLE_CHANGE = 0.005; // of the strain: too small to be compared
 constexpr int TIGHT_LOOKS_AHEAD = 20;       // extrapolated, of a garment that is tight at a girth
 constexpr int LOOSE_LOOKS_AHEAD =
-    40; // likewise, with ease all around: sleeves slide along an arm, slowly
+    40; // extrapolated, with ease all around: sleeves slide along an arm, slowly
 constexpr double LARGEST_IMBALANCE =
     0.03; // of the tension that goes with the strain of the bounds: the residual force
 constexpr int STRAINED_STEPS =

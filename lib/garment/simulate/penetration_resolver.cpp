@@ -15,10 +15,10 @@ constexpr double UNTANGLE_STEP = 0.001; // m: of an edge against its face in one
 constexpr double PART_STEP = 0.004;     // m: of a particle out of the body in one round
 constexpr double PART_CLEAR = 5e-4;     // m: what was in the body ends this far outside
 constexpr int SETTLING_ROUNDS = 60;     // while the garment settles
-constexpr int MAX_PARTINGS = 4;         // likewise
+constexpr int MAX_PARTINGS = 4;         // in which cloth is parted from the body, while it settles
 constexpr double MOST_IN_FLIGHT = 0.01; // of the faces: more is no pinch but a garment too small
-constexpr double MOST_AT_START = 0.03;  // likewise: nothing pulls yet
-constexpr double PART_REACH = 0.3;      // m: deeper cloth has no way out along the skin's normal
+constexpr double MOST_AT_START = 0.03;  // of the faces, before sewing: nothing pulls yet
+constexpr double PART_REACH = 0.3;      // m: deeper cloth does not get out along the skin's normal
 
 } // namespace
 

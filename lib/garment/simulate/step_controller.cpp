@@ -11,9 +11,9 @@ namespace {
 constexpr double ENERGY_LEFT = 0.15; // of a solve's error in the energy norm; 0.03 to 0.1 and 0.3
                                      // took as long or longer over seven garments
 constexpr double EXACT_ENERGY_LEFT =
-    0.05; // likewise, of cloth from a coarser mesh: on a T-shirt and trousers three starts 1 um
+    0.05; // the same of cloth from a coarser mesh: on a T-shirt and trousers three starts 1 um
           // apart end 0.3 and 0.2 mm apart in place of 0.5 and 2.8, in 0.7 of the steps
-constexpr double LEFT_AT_REST = 0.025; // likewise, where all is as slow as at rest: what is slack
+constexpr double LEFT_AT_REST = 0.025; // the same where all is as slow as at rest: what is slack
                                        // and still moving has little of the energy
 constexpr double ROUGH = 0.01;         // relative residual; who asks for less means it
 constexpr double SEW_TOLERANCE = 0.05; // relative residual of a step while sewing

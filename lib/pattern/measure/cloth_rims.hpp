@@ -1,6 +1,6 @@
 #pragma once
 /// Where the cloth of a sewn garment ends, walked edge by edge over its seams, and how much cloth
-/// lies around each vertex on the way. Test: tests/pattern/measure/test_half_sewn.cpp
+/// lies around each vertex of it. Test: tests/pattern/measure/test_half_sewn.cpp
 #include <sloper/pattern/panel_mesh.hpp>
 #include <sloper/pattern/pattern.hpp>
 

@@ -20,7 +20,7 @@ constexpr double ROLL_WIDTH = 0.012;  // m beside the roll line within which it 
 constexpr double LAPEL_STANDS_OFF = 30, LEAF_STANDS_OFF = 80;
 constexpr int OUTLINE_SAMPLES = 16; // of an edge, to see on which side of a roll line it is
 constexpr double NEARLY =
-    0.97; // of the way from fold to target: both folds of a box pleat must not touch
+    0.97; // of the distance from fold to target: both folds of a box pleat must not touch
 
 constexpr double ROWS_BEYOND = 2; // of triangles beyond a roll line: a single one cannot lie flat
 constexpr double MOST_TIMES_FINER = 8; // than usual are the edges of a panel with roll lines
@@ -85,7 +85,7 @@ void check_apart(const Panel& panel, const std::vector<Stretch>& stretches,
     }
 }
 
-/// The line halfway between two, both sampled evenly and walked the same way.
+/// The line halfway between two, both sampled evenly and walked in the same direction.
 Path halfway(const Path& a, const Path& b) {
   const ArcLength one(a), two(b);
   const bool turned = (one.at(0) - two.at(0)).squaredNorm() +

@@ -128,8 +128,8 @@ double distance_to_own(const std::vector<std::vector<Vec2>>& chains, const Vec2&
   return least;
 }
 
-/// Inner lines as chains of mesh points: where a line comes too near to the outline, to a line
-/// before it or to itself, it is left out and told. The chain of a closed line ends on the very
+/// Inner lines as chains of mesh points. A line that comes too near to the outline, to a line
+/// before it or to itself is left out, with a finding. The chain of a closed line ends on the very
 /// point that it starts from.
 std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
                                              const Boundary::PanelBoundary& boundary, double h,

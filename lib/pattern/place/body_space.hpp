@@ -9,7 +9,7 @@ namespace sloper::pattern {
 /// front.
 struct Axis {
   Vec3 origin = Vec3::Zero(), up = Vec3::UnitY(), front = Vec3::UnitZ();
-  Vec3 right() const { return up.cross(front); } ///< the way u grows, seen from outside
+  Vec3 right() const { return up.cross(front); } ///< where u grows, seen from outside
   Vec3 point(const Vec2& plane, double v) const {
     return origin + plane.x() * right() + v * up + plane.y() * front;
   }

@@ -14,7 +14,7 @@
 namespace sloper::pattern {
 
 constexpr int ROUNDS = 60;
-constexpr double MOST_ARM_SHIFT = 0.25; // m, by which sleeves make way for the trunk
+constexpr double MOST_ARM_SHIFT = 0.25; // m, by which sleeves are moved off the trunk
 constexpr double SKIN_REACH = 0.05;     // m: what a face through the skin is that near to
 
 Placer::Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh,

@@ -20,13 +20,13 @@ constexpr double BEYOND_WRIST =
 constexpr double SLEEVE_KEEPS =
     0.4; // of the arm's length, from the shoulder: where such a sleeve is not shortened
 constexpr double BELOW_CROTCH = 0.03; // m: where trousers' crotch starts below the body's
-constexpr double MOST_RISE = 1.25;    // stretch of the way from waist to crotch for that, at most
+constexpr double MOST_RISE = 1.25;    // stretch from waist to crotch for that, at most
 constexpr double LEG_ROW = 0.01;      // m between the rows of cloth that a leg is laid out by
 constexpr double ARM_ROW = 0.02; // m between the rows in which arms are looked at beside a trunk
 constexpr double BELOW_PIT =
     0.04; // m below the arm pits until cloth beside arms has come into its folds
 constexpr double FOLD_LENGTH = 0.08; // m of such a fold
-constexpr double MOST_FOLDED = 2.5;  // length of cloth on a length of the way, at most
+constexpr double MOST_FOLDED = 2.5;  // length of cloth on a length of the path, at most
 
 static double hull_end(const std::vector<Vec2>& hull, double sense) {
   double z = -1e300;

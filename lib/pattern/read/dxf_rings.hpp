@@ -16,7 +16,7 @@ double distance_to_ring(const PointRing& ring, const Vec2& p);
 /// @param unit  m per unit of the file
 std::vector<PointRing> rings_of(const DxfBlock& block, int layer, double unit, double join);
 
-/// Whether a sew line runs along a cut line all the way: no allowance or hem is wider than 7 cm.
+/// Whether a sew line runs along a cut line throughout: no allowance or hem is wider than 7 cm.
 bool follows(const PointRing& sew, const PointRing& cut);
 
 /// PointRing vertices at which edges begin: turn points of layer 2, or corners of more than 30

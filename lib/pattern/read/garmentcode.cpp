@@ -72,7 +72,7 @@ bool faces_body(const Panel& panel) {
   return outwards.dot(away) < -FACES_BODY * away.norm() && outwards.dot(center) < 0;
 }
 
-/// The same loop walked the other way; edge k of n comes to be edge n - 1 - k.
+/// The same loop walked in the opposite direction; edge k of n comes to be edge n - 1 - k.
 void reverse_sense(std::vector<PanelEdge>& loop) {
   std::reverse(loop.begin(), loop.end());
   for (PanelEdge& e : loop)

@@ -71,7 +71,7 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
   for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
     Panel& panel = pattern.panels[k];
     if (const auto fault = fault_of(panel);
-        fault && !fault->place.empty()) // sizes are told of the largest panel
+        fault && !fault->place.empty()) // a wrong size is reported of the largest panel, below
       throw input_error("pattern.faulty-outline"_id, file, panel.name + ": " + fault->place,
                         fault->fact, fault->next);
     for (std::size_t l = 0; l < panel.loops.size(); ++l) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double DEEPEST_SLIT = 0.02;              // m; notches are cut 3 to 10 mm deep
 constexpr double OVERSHOOT = 1e-3;                 // m: a shorter slit is none
 constexpr double SAME_POINT = 2e-4;                // m
-const double FOLDS_BACK = units::radians(3);       // between the way out and the way back
+const double FOLDS_BACK = units::radians(3);       // between the stretch out and the stretch back
 const double OVERSHOOT_ANGLE = units::radians(15); // the same of an overshoot, which rounding bends
 const double LEAVES = units::radians(30);
 constexpr double SYMMETRIC = 0.003; // m

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double ONE_PLANE =
     1e-3; // units of the file between panels, and between their unit normals: placed by nobody
-constexpr double ALIKE = 0.99;    // of the gaps of seams: no order is told
+constexpr double ALIKE = 0.99;    // of the gaps of seams: neither order is better
 constexpr double SAME = 1 - 1e-9; // both orders are one
 
 enum class CurveStyle { NONE, LIST, TYPED };
@@ -33,7 +33,7 @@ CurveStyle curve_style(const io::Node& panels) {
 }
 
 /// Both ends of a panel edge in the world, in units of the file; nothing where the stitch names
-/// none, which is told when it is read.
+/// none, which is an error where the stitch is read.
 std::optional<std::array<Vec3, 2>> edge_ends(const io::Node& panels, const io::Node& item,
                                              EulerOrder order) {
   const std::string name = item.at("panel").string();
@@ -57,7 +57,7 @@ std::optional<std::array<Vec3, 2>> edge_ends(const io::Node& panels, const io::N
   return out;
 }
 
-/// Sum over the seams of how far their ends are apart, the nearer way round, in units of the file.
+/// Sum over the seams of how far their ends are apart, in the nearer order, in units of the file.
 double seam_gaps(const io::Node& source, EulerOrder order) {
   const io::Node panels = source.at("panels"), stitches = source.at("stitches");
   double sum = 0;

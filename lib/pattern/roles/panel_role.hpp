@@ -41,8 +41,8 @@ struct PanelRole {
   double theta = 0; ///< rad, RING only: where its middle looks (0 front, +pi/2 the wearer's left)
   Eigen::Matrix2d turn = Eigen::Matrix2d::Identity(); ///< pattern coordinates to (u, v): v up the
                                                       ///< trunk, or up the arm to the shoulder
-  bool by_shape = false;                              ///< told by shape and seams alone
-  bool unsure_front = false;    ///< whether it is front or back is told by little
+  bool by_shape = false;                              ///< known by shape and seams alone
+  bool unsure_front = false;                          ///< front and back fit nearly as well
   std::optional<double> du, dv; ///< m: (u, v) = turn p + (du, dv) where the pattern's hint says so;
                                 ///< heights are those of its own body
 };

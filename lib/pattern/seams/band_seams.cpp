@@ -266,7 +266,7 @@ private:
     bool sure = true;
     for (const Edges& end : ends)
       sure = sure && is_certain(m_guesses, seams, end);
-    for (SeamGuess& g : m_guesses) // that closed a cuff the other way
+    for (SeamGuess& g : m_guesses) // that closed a cuff by its other edges
       g.certain = g.certain && !touches(g.seam, {cuffs[0], cuffs[1]});
     drop_unsure(m_guesses, [&](const Seam& seam) {
       return touches(seam, {cuffs[0], cuffs[1]}) || takes_any(seam, ends[0]) ||

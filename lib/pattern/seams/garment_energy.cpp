@@ -22,7 +22,7 @@ constexpr ClassBounds RIM_LENGTHS = {0.1, 0.25, 0.5, 0.9};      // m
 constexpr double CUSP = 300;                        // degrees of cloth at the end of a slit
 constexpr double CUSP_SIDES = 0.01;                 // logarithm of lengths
 constexpr double LEAST_FLAT = 150, MOST_FLAT = 210; // degrees: an outline that goes on
-constexpr int MOST_MEETING = 4;                     // that meet at a point and are told apart
+constexpr int MOST_MEETING = 4;                     // seams at a point that are distinguished
 
 std::size_t class_of(double x, ClassBounds bounds) {
   std::size_t k = 0;

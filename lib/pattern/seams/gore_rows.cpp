@@ -89,7 +89,7 @@ public:
     return false;
   }
 
-  /// The ring's seams, and tops that it puts on the rim; none where the order is not told.
+  /// The ring's seams, and tops that it puts on the rim; none where the order is not known.
   std::vector<Seam> seams() {
     if (!find_rim())
       return {};

@@ -102,7 +102,7 @@ private:
 
   void weld(const Seam& seam) {
     const double total[2] = {side_length(m_pattern, seam.a), side_length(m_pattern, seam.b)};
-    std::vector<double> ends = {0, 1}; // of runs, on the way along the seam
+    std::vector<double> ends = {0, 1}; // of runs, in the order of the seam
     for (const auto* side : {&seam.a, &seam.b}) {
       double sum = 0;
       for (const Run& run : *side) {

@@ -1,6 +1,6 @@
 #pragma once
 /// Where cloth ends while panels are sewn together side by side: rims of free sides. Panels are
-/// seen from outside, so a side is sewn to one that runs the other way, and what comes of it is a
+/// seen from outside, so a side is sewn to one that runs against it, and what comes of it is a
 /// surface with two faces: parts, each with rims and with handles. Test:
 /// tests/pattern/seams/test_whole_garment.cpp
 #include <pattern/seams/seam_evidence.hpp>

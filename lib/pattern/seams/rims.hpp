@@ -45,7 +45,7 @@ Edges behind_longest_seam(const Pattern& pattern, const Rim& rim, const std::vec
 std::vector<Run> whole(Edges edges, bool with_outline);
 /// The stretch [from, to], m, of edges that are walked in order.
 std::vector<Run> stretch(const Edges& edges, double from, double to);
-std::vector<Run> turned(std::vector<Run> runs); ///< walked the other way
+std::vector<Run> turned(std::vector<Run> runs); ///< walked in the opposite direction
 
 /// A guess that rests on rims. @param score  its probability where it is not sure
 SeamGuess rim_guess(Seam seam, bool sure, double score);

@@ -98,7 +98,7 @@ std::vector<SeamGuess> with_ring_bands(const Pattern& pattern, std::vector<SeamG
     if (share < SHORTEST_RING || share > LONGEST_RING)
       continue;
     if (fits)
-      return given; // which of them is not told
+      return given; // several fit: none is chosen
     fits = &rim;
   }
   if (!fits)

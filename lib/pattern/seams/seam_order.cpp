@@ -29,7 +29,7 @@ int edge_on(const Seam& seam, int panel) {
   return (seam.a[0].panel == panel ? seam.a : seam.b)[0].edge;
 }
 
-/// 1 where x, y, z come in that order around, -1 where they come the other way.
+/// 1 where x, y, z come in that order around, -1 where they come in the opposite order.
 int sense(int x, int y, int z) {
   return (x < y) + (y < z) + (z < x) == 2 ? 1 : -1;
 }

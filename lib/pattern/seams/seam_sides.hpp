@@ -16,7 +16,7 @@ struct SeamSide {
   int loop_begin = 0, loop_size = 0;   ///< of that loop, as Panel::edge counts
   double length = 0;                   ///< m
   Vec2 chord = Vec2::Zero();           ///< m, across the grain and along it
-  Vec2 place = Vec2::Zero(); ///< of its middle in the panel's box along the grain, 0 to 1 each way
+  Vec2 place = Vec2::Zero(); ///< of its middle in the panel's box along the grain, 0 to 1 by axis
   double share = 0;          ///< length over the half perimeter of the panel
   double corner_start = 0, corner_end = 0; ///< rad
   std::array<double, SAMPLES> offset{};    ///< from the chord to its left, over the length

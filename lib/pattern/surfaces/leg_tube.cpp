@@ -134,7 +134,7 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
     c.y = heights[j];
     c.cloth = rows[j];
     outline(c, gap);
-    // How far the row may go around inwards: to the plane between the legs where there is no way
+    // How far the row may go around inwards: to the plane between the legs where there is no room
     // between them, else up to a skin that is too near that plane.
     const Ring skin = radii(m_skin[bin(c.y)], c.center, SKIN_CLEAR);
     for (const bool back : {false, true}) {

@@ -71,7 +71,7 @@ PY
 }
 
 case_a_drape_that_stands_out_straight_cannot_tell() {
-  run 4 "$program" --weight 121 --drape-percent 99.5 -o out.json
+  run 4 "$program" --weight 121 --drape-percent 99.5 --disc 60 -o out.json
   says "cannot tell bending from the drape"
   grep -q cannot_tell out.json || fail "the document does not say so"
 }

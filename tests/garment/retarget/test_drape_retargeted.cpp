@@ -28,7 +28,7 @@ protected:
   static void SetUpTestSuite() {
     s_from = new Figure("f-165-a");
     s_to = new Figure("f-160-a");
-    s_skirt = new Garment(worn_skirt(*s_from));
+    s_skirt = new Garment(worn_skirt(*s_from, 0.028));
   }
   static void TearDownTestSuite() {
     delete s_skirt;

@@ -14,7 +14,7 @@ class ARetargetedSkirt : public testing::Test {
 protected:
   static void SetUpTestSuite() {
     s_from = new Figure("f-165-a");
-    s_skirt = new Garment(worn_skirt(*s_from));
+    s_skirt = new Garment(worn_skirt(*s_from, 0.035));
   }
   static void TearDownTestSuite() {
     delete s_skirt;

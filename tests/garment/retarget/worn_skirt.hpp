@@ -27,14 +27,14 @@ struct Figure {
   }
 };
 
-/// The skirt, on edges of 25 mm; its draft is that of `make-pattern skirt`.
-inline Garment worn_skirt(const Figure& figure) {
+/// The skirt; its draft is that of `make-pattern skirt`. @param edge_m  of its mesh, m
+inline Garment worn_skirt(const Figure& figure, double edge_m) {
   const pattern::Pattern source =
       pattern::read_pattern_json(samples::pattern_document(samples::draft_skirt(
                                      samples::measures_from_body(figure.truth, "figure"))),
                                  "skirt");
   Garment garment;
-  garment.panels = pattern::mesh_pattern(source, 0.025, "skirt");
+  garment.panels = pattern::mesh_pattern(source, edge_m, "skirt");
   garment.panels.source = std::make_shared<pattern::Pattern>(source);
   pattern::place_panels(source, figure.body, garment.panels);
   const DrapeReport report =

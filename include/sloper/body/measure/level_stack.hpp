@@ -29,7 +29,7 @@ public:
   /// @param roughness  m by which heights of a rebuilt skin are uncertain; 0 for a scan's
   /// own faces
   /// @param up unit vector within a few degrees of +y, the vertical by which the lower of two ends
-  /// of a crotch is told
+  /// of a crotch is found
   LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness = 0,
              const Vec3& up = Vec3::UnitY());
   /// Slices from the soles upwards.

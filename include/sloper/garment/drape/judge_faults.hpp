@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a garment at rest is of panels that cannot be meant.
+/// Drapes of panels in which pattern-mesh found a fault: at rest, but no garment.
 /// Test: tests/garment/drape/test_judge_faults.cpp
 #include <sloper/garment/drape/drape_job.hpp>
 

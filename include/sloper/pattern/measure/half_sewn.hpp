@@ -1,5 +1,5 @@
 #pragma once
-/// What of a garment is only half sewn: seen on its cloth once all seams are closed.
+/// Edges that are open although the seams around them belong together, found on the sewn cloth.
 /// Test: tests/pattern/measure/test_half_sewn.cpp
 #include <sloper/pattern/panel_mesh.hpp>
 #include <sloper/pattern/seams/check_pattern.hpp>

@@ -69,7 +69,7 @@ PhaseStatus InflatePhase::step(SimContext& context) {
 
 void InflatePhase::end(SimContext& context) {
   cloth::BodyContactEffect& contact = *context.cloth.body_contact();
-  contact.move_body(context.body.skin_at(1), context.cloth.x()); // also when stopped on the way
+  contact.move_body(context.body.skin_at(1), context.cloth.x()); // also when stopped before the end
   contact.refresh();
 }
 

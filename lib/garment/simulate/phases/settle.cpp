@@ -32,22 +32,22 @@ constexpr double SUNK =
     2e-4; // m that all cloth together may sink, when what was blocked is released, and be at rest
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
 constexpr double GROWTH = 1.15;          // of the time step while little moves
-constexpr double GROWTH_NEAR_REST = 1.3; // likewise, near rest
+constexpr double GROWTH_NEAR_REST = 1.3; // of the time step, near rest
 constexpr double SHRINK_MUCH_MOVED = 0.8;
 constexpr double SHRINK_HALVED = 0.7;   // after a step that the line search halved
 constexpr double LITTLE_MOVED = 0.003;  // m, of the fastest particle in a step
-constexpr double MUCH_MOVED = 0.01;     // m, likewise
+constexpr double MUCH_MOVED = 0.01;     // m, of the fastest particle in a step
 constexpr double BETTER_RESIDUAL = 0.9; // of the best so far: progress
 constexpr double HUNG_SPEED =
     0.02; // m/s: slower, a skirt hangs, and arms that were held up can come down beside it
-constexpr double HUNG_RESIDUAL = 10;     // weights: likewise
+constexpr double HUNG_RESIDUAL = 10;     // weights: below, arms can come down
 constexpr double LARGEST_STEP_S = 0.2;   // s
 constexpr int PROBE_EVERY = 60;          // steps between looks whether cloth still drifts
-constexpr int FIRST_PROBE_CARRIED = 240; // likewise, the first of cloth from a coarser mesh
+constexpr int FIRST_PROBE_CARRIED = 240; // steps before the first look at cloth from a coarser mesh
 constexpr int PROBE_STEPS = 20;          // before a look: over these drift is measured
 constexpr double DRIFTS = 5e-4;          // m root mean square in them
 constexpr int DYNAMIC_STEPS = 60;        // with inertia, at most
-constexpr int LEAST_DYNAMIC_STEPS = 10;  // likewise, at least: it begins to move
+constexpr int LEAST_DYNAMIC_STEPS = 10;  // with inertia, at least: cloth begins to move
 constexpr double DYNAMIC_STEP_S = 1.0 / 60;
 constexpr double DYNAMIC_INERTIA = 0.98; // share of the velocity that is carried over
 constexpr double ARRIVED_SPEED = 0.005;  // m/s of the fastest particle
