@@ -219,7 +219,7 @@ int run_render(cli::Tool& tool, const Options& o) {
     io::write_file(o.values, values_as_ply ? render::values_ply(scene, legend)
                                            : render::values_csv(scene, legend));
   std::vector<render::DrawMesh> meshes = scene.meshes; // the scene keeps its panels' own vertices
-  render::smooth_cloth(meshes);
+  render::smooth_cloth(meshes, render::is_export(o.output));
   if (render::is_export(o.output)) {
     const std::optional<render::Rig> rig = render::make_rig(scene, meshes);
     const render::Print print{options.print, options.print_size};

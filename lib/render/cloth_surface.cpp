@@ -17,7 +17,8 @@ constexpr double CURVE =
 constexpr double MOST_IN = 0.0002, MOST_OUT = 0.003; // m, in each round
 constexpr double LEAST_RIM = 0.0012;                 // m: thinner rims cannot be seen
 
-int mid_vertex(DrawMesh& mesh, int a, int b) {
+/// @param most_in  m, how far it may lie behind the draped triangles
+int mid_vertex(DrawMesh& mesh, int a, int b, double most_in) {
   const int m = std::ssize(mesh.positions);
   const Vec3 p = mesh.positions[a], q = mesh.positions[b], np = mesh.normals[a],
              nq = mesh.normals[b], flat = 0.5 * (p + q);
@@ -26,7 +27,7 @@ int mid_vertex(DrawMesh& mesh, int a, int b) {
   // Inwards no further than the cloth lies off the skin, outwards no further than folds lie off
   // each other.
   Vec3 curved = CURVE * (0.5 * (on_p + on_q) - flat);
-  const double most = curved.dot(n) < 0 ? MOST_IN : MOST_OUT, length = curved.norm();
+  const double most = curved.dot(n) < 0 ? most_in : MOST_OUT, length = curved.norm();
   if (length > most)
     curved *= most / length;
   mesh.positions.push_back(flat + curved);
@@ -48,7 +49,8 @@ int mid_vertex(DrawMesh& mesh, int a, int b) {
 }
 
 /// Every triangle into four.
-void quarter_triangles(DrawMesh& mesh) {
+/// @param most_in  as of mid_vertex()
+void quarter_triangles(DrawMesh& mesh, double most_in) {
   std::unordered_map<std::uint64_t, int> middle;
   middle.reserve(mesh.triangles.size() * 2);
   auto mid = [&](int a, int b) {
@@ -56,7 +58,7 @@ void quarter_triangles(DrawMesh& mesh) {
                      static_cast<std::uint64_t>(std::max(a, b));
     const auto [found, is_new] = middle.try_emplace(key, 0);
     if (is_new)
-      found->second = mid_vertex(mesh, std::min(a, b), std::max(a, b));
+      found->second = mid_vertex(mesh, std::min(a, b), std::max(a, b), most_in);
     return found->second;
   };
   std::vector<Triangle> finer;
@@ -204,7 +206,11 @@ std::vector<std::vector<char>> rims_without_room(const std::vector<DrawMesh>& me
 
 } // namespace
 
-void smooth_cloth(std::vector<DrawMesh>& meshes) {
+void smooth_cloth(std::vector<DrawMesh>& meshes, bool as_model) {
+  const bool keeps_outside =
+      as_model && std::none_of(meshes.begin(), meshes.end(), [](const DrawMesh& mesh) {
+        return !mesh.is_cloth && !mesh.is_flat;
+      });
   for (DrawMesh& mesh : meshes) {
     if (!mesh.is_cloth || mesh.triangles.empty() || mesh.uv.empty())
       continue;
@@ -215,11 +221,13 @@ void smooth_cloth(std::vector<DrawMesh>& meshes) {
     double edge = sum / static_cast<double>(mesh.triangles.size());
     for (int round = 0; round < 3 && edge > FINE && mesh.triangles.size() * 4 <= MOST_TRIANGLES;
          ++round, edge *= 0.5)
-      quarter_triangles(mesh);
+      quarter_triangles(mesh, keeps_outside ? 0 : MOST_IN);
     measure_borders(mesh);
   }
   ClothClearance clearance(meshes);
   clearance.keep_clear(meshes);
+  if (keeps_outside)
+    return;
   const std::vector<std::vector<char>> left_out = rims_without_room(meshes, clearance);
   for (std::size_t m = 0; m < meshes.size(); ++m)
     if (!meshes[m].flat.empty())

@@ -129,6 +129,22 @@ TEST(Cloth, smoothing_moves_no_cloth_through_a_body) {
   EXPECT_EQ(count_crossings(meshes), 0u);
 }
 
+TEST(Cloth, a_model_without_the_body_is_clear_of_it) {
+  // Half a millimetre off the skin: less than a rim is thick, and less than hollow cloth is
+  // rounded.
+  for (const double side : {1.0, -1.0}) {
+    const garment::Garment body = make_arc(8, 0.1 - 0.0005 * side), cloth = make_arc(8, 0.1);
+    std::vector<DrawMesh> model = {cloth_mesh(cloth)}, picture = model;
+    for (std::vector<DrawMesh>* meshes : {&model, &picture})
+      for (Vec3& n : meshes->front().normals)
+        n *= side;
+    smooth_cloth(model, true);
+    smooth_cloth(picture);
+    EXPECT_EQ(count_crossings({model[0], as_obstacle(body)}), 0u);
+    EXPECT_GT(count_crossings({picture[0], as_obstacle(body)}), 0u); // nobody sees it
+  }
+}
+
 TEST(Cloth, an_edge_has_no_rim_where_there_is_no_room_for_one) {
   // Two sheets 0.5 mm apart: the rim of the upper one, 1.2 mm thick, would pass through the lower.
   const garment::Garment lower = make_sheet(6, flat);

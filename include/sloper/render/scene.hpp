@@ -82,7 +82,9 @@ DrawMesh cloth_mesh(const garment::Garment& garment);
 ///
 /// The smooth surface passes neither through a mesh that is no cloth nor through cloth, where the
 /// draped triangles do not: it lies nearer to those there (see ClothClearance).
-void smooth_cloth(std::vector<DrawMesh>& meshes);
+/// @param as_model  for another program, in which the body may stand beside it. Where all meshes
+/// are cloth the skin is unknown then: nothing goes behind the draped triangles, no rim either
+void smooth_cloth(std::vector<DrawMesh>& meshes, bool as_model = false);
 
 /// How cloth is coloured: each panel its own colour, or each garment one.
 enum class ClothColors { PANELS, GARMENTS };

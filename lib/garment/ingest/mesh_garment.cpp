@@ -2,6 +2,7 @@
 
 #include <garment/bind/bind_frames.hpp>
 #include <garment/bind/bind_weights.hpp>
+#include <garment/ingest/carried_clearance.hpp>
 #include <garment/ingest/flat_panels.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/number_text.hpp>
@@ -253,9 +254,9 @@ MeshGarment read_mesh_garment(const std::string& path, const body::Body& from,
                        g.particle_triangles());
 
   const std::vector<Triangle> all = all_triangles(m.file, s);
-  m.crossings = static_cast<int>(
-      collision::self_intersections(s.position, all, collision::TriangleTree(s.position, all))
-          .size());
+  m.crossing_pairs =
+      collision::self_intersections(s.position, all, collision::TriangleTree(s.position, all));
+  m.crossings = static_cast<int>(m.crossing_pairs.size());
   m.faces_through = static_cast<int>(skin.faces_through(s.position, all).size());
   for (const int place : s.place_of)
     m.vertices_inside += skin.signed_distance(s.position[place], NEAR_M).distance < 0;
@@ -267,7 +268,10 @@ MeshGarment read_mesh_garment(const std::string& path, const body::Body& from,
 DressedMesh dressed_mesh(const MeshGarment& mesh, const Garment& worn, const body::Body& to,
                          const collision::BodyCollider& skin) {
   const std::vector<Triangle> cloth = worn.particle_triangles();
-  const Moved moved = carry_along(mesh.carried, mesh.garment.position, worn.position, cloth, &skin);
+  const std::vector<Triangle> all = all_triangles(mesh.file, mesh.surface);
+  Moved moved = carry_along(mesh.carried, mesh.garment.position, worn.position, cloth, &skin);
+  const CrossingPairs crossing =
+      keep_carried_clear(mesh.carried, worn.position, cloth, all, mesh.crossing_pairs, moved);
   const Mat4 back = (mesh.frame.in_scan ? to.scan_to_body : mesh.file_to_body).inverse();
   const Mat3 out = mesh.file_to_body.topLeftCorner<3, 3>(), in = back.topLeftCorner<3, 3>();
   const double scale = std::cbrt(std::abs((in * out).determinant()));
@@ -282,10 +286,7 @@ DressedMesh dressed_mesh(const MeshGarment& mesh, const Garment& worn, const bod
   }
   DressedMesh dressed;
   dressed.bytes = io::moved_mesh_file(mesh.file, positions, turned);
-  const std::vector<Triangle> all = all_triangles(mesh.file, mesh.surface);
-  dressed.crossings = static_cast<int>(
-      collision::self_intersections(moved.place, all, collision::TriangleTree(moved.place, all))
-          .size());
+  dressed.crossings = static_cast<int>(crossing.size());
   dressed.faces_through = static_cast<int>(skin.faces_through(moved.place, all).size());
   return dressed;
 }

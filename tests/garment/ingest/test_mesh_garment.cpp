@@ -1,8 +1,10 @@
 #include <support/skin_garment.hpp>
 
+#include <garment/ingest/carried_clearance.hpp>
 #include <garment/ingest/flat_panels.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/intersections.hpp>
 #include <sloper/garment/fit/stretch.hpp>
 #include <sloper/garment/ingest/mesh_garment.hpp>
 #include <sloper/garment/retarget/retarget.hpp>
@@ -269,6 +271,87 @@ TEST(MeshGarment, a_shell_is_simulated_as_its_inner_side) {
   for (std::size_t i = 0; i < out.size() / 2; ++i)
     EXPECT_NEAR((out[i] - out[i + out.size() / 2]).norm(),
                 (d.position[i] - d.position[i + out.size() / 2]).norm(), 3e-4);
+}
+
+/// Cloth of 20 by 9 cells of 1 cm whose other side is 4 mm above it.
+struct ThickSheet {
+  static constexpr int COLUMNS = 21, ROWS = 10, SIDE = COLUMNS * ROWS;
+  static constexpr double CELL = 0.01, THICKNESS = 0.004; // m
+  std::vector<Vec3> cloth, both;
+  std::vector<Triangle> cloth_triangles, all;
+  Carried carried;
+
+  ThickSheet() {
+    std::vector<int> particle;
+    for (int i = 0; i < SIDE; ++i) {
+      cloth.emplace_back(CELL * (i % COLUMNS), 0, -CELL * (i / COLUMNS));
+      particle.push_back(i);
+    }
+    both = cloth;
+    for (const Vec3& p : cloth)
+      both.push_back(p + Vec3(0, THICKNESS, 0));
+    particle.resize(both.size(), -1);
+    for (int i = 0; i + COLUMNS < SIDE; ++i) {
+      if (i % COLUMNS == COLUMNS - 1)
+        continue;
+      cloth_triangles.push_back({i, i + 1, i + 1 + COLUMNS});
+      cloth_triangles.push_back({i, i + 1 + COLUMNS, i + COLUMNS});
+    }
+    all = cloth_triangles;
+    for (const Triangle& t : cloth_triangles)
+      all.push_back({t[0] + SIDE, t[1] + SIDE, t[2] + SIDE});
+    carried = carry_on(both, particle, std::vector<int>(both.size(), -1), cloth, cloth_triangles);
+  }
+  /// Folded upwards in the middle, so that its halves are `apart`.
+  std::vector<Vec3> folded(double apart) const {
+    std::vector<Vec3> after = cloth;
+    for (int i = 0; i < SIDE; ++i)
+      if (const int column = i % COLUMNS; column > COLUMNS / 2)
+        after[i] += Vec3(CELL * (COLUMNS - 2 * column), apart, 0);
+    return after;
+  }
+  Moved moved(const std::vector<Vec3>& after) const {
+    return carry_along(carried, cloth, after, cloth_triangles, nullptr);
+  }
+  std::size_t crossings(const std::vector<Vec3>& place) const {
+    return collision::self_intersections(place, all, collision::TriangleTree(place, all)).size();
+  }
+};
+
+TEST(Carried, the_other_side_of_a_shell_comes_nearer_where_a_fold_leaves_it_no_room) {
+  const ThickSheet sheet;
+  const std::vector<Vec3> tight = sheet.folded(0.003); // the other sides want 8 mm
+  Moved moved = sheet.moved(tight);
+  EXPECT_GT(sheet.crossings(moved.place), 50u);
+  const CrossingPairs left =
+      keep_carried_clear(sheet.carried, tight, sheet.cloth_triangles, sheet.all, {}, moved);
+  EXPECT_TRUE(left.empty());
+  EXPECT_EQ(sheet.crossings(moved.place), 0u);
+  for (int i = 0; i < ThickSheet::SIDE; ++i)
+    EXPECT_EQ(moved.place[i], tight[i]);
+}
+
+TEST(Carried, the_other_side_of_a_shell_keeps_its_distance_where_there_is_room) {
+  const ThickSheet sheet;
+  const std::vector<Vec3> wide = sheet.folded(0.02);
+  Moved moved = sheet.moved(wide);
+  const std::vector<Vec3> before = moved.place;
+  EXPECT_TRUE(
+      keep_carried_clear(sheet.carried, wide, sheet.cloth_triangles, sheet.all, {}, moved).empty());
+  EXPECT_EQ(moved.place, before);
+}
+
+TEST(Carried, what_crossed_in_the_source_is_left_as_it_was) {
+  const ThickSheet sheet;
+  const std::vector<Vec3> tight = sheet.folded(0.003);
+  Moved moved = sheet.moved(tight);
+  const std::vector<Vec3> before = moved.place;
+  const CrossingPairs known =
+      collision::self_intersections(before, sheet.all, collision::TriangleTree(before, sheet.all));
+  EXPECT_EQ(
+      keep_carried_clear(sheet.carried, tight, sheet.cloth_triangles, sheet.all, known, moved),
+      known);
+  EXPECT_EQ(moved.place, before);
 }
 
 TEST(MeshGarment, faces_that_stand_twice_are_one_layer) {

@@ -35,7 +35,8 @@ struct MeshGarment {
   int panels = 0;                       ///< pieces of cloth, or of the texture
   int vertices_inside = 0;              ///< of the file, inside the body that it comes from
   int crossings = 0, faces_through = 0; ///< of the file's triangles, on the body it comes from
-  std::vector<Message> findings;        ///< crossings and coarse edges of the file as it came
+  std::vector<std::array<int, 2>> crossing_pairs; ///< of the file's triangles that cross as it came
+  std::vector<Message> findings; ///< crossings and coarse edges of the file as it came
 };
 
 /// @param fabric  material preset   @param skin  of `from`, whose skin's hash is `skin_sha256`
