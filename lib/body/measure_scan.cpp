@@ -368,8 +368,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " +
                 std::to_string(frame.stature_m) + " m");
   SkinSurface skin =
-      make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m,
-                is_torso ? (torso.has_head ? "it has no legs" : "it has no head") : "");
+      make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m, torso.lacks);
   body.skin = std::move(skin.mesh);
   phases.done("frame and skin");
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());

@@ -33,6 +33,6 @@ TEST(ScanFindings, the_figure_of_a_body_thinner_than_those_it_was_told_apart_on_
   TriangleMesh thin = test::mannequin("m-178-a").mesh;
   EXPECT_EQ(count_of(test::measure(thin).body, "scan.figure-unsure", "thinner"), 0);
   for (Vec3& p : thin.positions)
-    p = Vec3(0.8 * p.x(), p.y(), 0.8 * p.z());
+    p = Vec3(0.75 * p.x(), p.y(), 0.75 * p.z());
   EXPECT_EQ(count_of(test::measure(thin).body, "scan.figure-unsure", "thinner"), 1);
 }

@@ -203,6 +203,7 @@ std::optional<CompletedTorso> complete_headless(const TriangleMesh& scan,
   CompletedTorso made;
   made.scan = scan;
   made.has_head = false;
+  made.lacks = "it has no head";
   made.is_cut.assign(t.points.size(), 0);
   std::vector<Vec2> rim, neck;
   for (std::size_t v = 0; v < t.points.size(); ++v) {

@@ -266,6 +266,7 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
           neck.center + q.x() * stand.heading.left + q.z() * stand.heading.forward, floor + q.y()));
     made.up = upright.point(Vec2::Zero(), 1);
     made.seen_from = floor + stand.cut + RIM * s;
+    made.lacks = "it has no legs";
     made.stature = s;
     return made;
   }

@@ -22,6 +22,7 @@ struct CompletedTorso {
       0; ///< height along `up` down to which the trunk is in the scan, the file's unit
   double seen_to = 1e300; ///< height along `up` up to which it is, the file's unit
   bool has_head = true;
+  std::string lacks;  ///< why its own faces are not enough: "it has no legs"
   double stature = 0; ///< estimated, without a head as given, the file's unit
 };
 

@@ -45,10 +45,11 @@ void breadths(const LevelStack& levels, double low, double high, double& least, 
 
 /// Volume within a skin, m3.
 double volume(const TriangleMesh& skin) {
-  double six = 0;
+  constexpr double TETRAHEDRON = 1.0 / 6; // of the parallelepiped of its edges
+  double sum = 0;
   for (const Triangle& t : skin.triangles)
-    six += skin.positions[t[0]].dot(skin.positions[t[1]].cross(skin.positions[t[2]]));
-  return six / 6;
+    sum += skin.positions[t[0]].dot(skin.positions[t[1]].cross(skin.positions[t[2]]));
+  return TETRAHEDRON * sum;
 }
 
 std::optional<double> front_of(const LevelStack& levels, double y) {
