@@ -23,11 +23,15 @@ constexpr double LID = 0.003;            ///< left out where the neck ends
 constexpr double STEP = 0.005, HALF_BAND = 0.006;    ///< of sections of the trunk, and half of each
 constexpr double NECK_SEARCH = 0.16;                 ///< from the top down to the turn at most
 constexpr double TURNED = 1.9;                       ///< times as broad as the neck: shoulders
+constexpr double SHOULDER_BROADER = 0.08;            ///< or broader by this: over a thick neck
 constexpr int NECK_SECTIONS = 6;                     ///< in which the neck is the narrowest
 constexpr double CHEST_FROM = 0.12, CHEST_TO = 0.35; ///< below the top: what is broader than deep
 constexpr double SHOULDERS_BELOW_TURN = 0.015;
 constexpr double TRUNK_SECTIONS[] = {0.03, 0.08, 0.14}; ///< below the turn
-constexpr double MOST_ASKEW = 0.03;     ///< middle of a trunk's section beside the neck's
+constexpr double MOST_ASKEW = 0.03; ///< middle of a trunk's section beside the neck's
+/// From the end of the neck to that of the trunk; what is less high is a trunk seen along another
+/// axis, or does not reach down to the hips.
+constexpr double LEAST_HEIGHT = 0.3;
 constexpr double LEGS_REACH = 0.75;     ///< below the turn: the scan shows the legs too
 constexpr std::size_t LEAST_POINTS = 6; ///< of a section, and of the neck's end
 
@@ -103,7 +107,7 @@ bool find_turn(Trunk& t) {
       continue;
     if (k < NECK_SECTIONS)
       narrow = std::min(narrow, breadth.size());
-    if (breadth.size() < TURNED * narrow)
+    if (breadth.size() < std::min(TURNED * narrow, narrow + SHOULDER_BROADER * t.s))
       continue;
     t.turn = y;
     t.clear = section_at(t, y - SHOULDERS_BELOW_TURN * t.s, 0).size() / narrow;
@@ -176,23 +180,26 @@ std::optional<CompletedTorso> complete_headless(const TriangleMesh& scan,
                                                 const std::string& file) {
   std::optional<Trunk> best;
   Upright upright;
+  bool shows_neck = false;
   for (const int axis : {1, 2, 0})
     for (const double sign : {1.0, -1.0}) {
       if (up_axis != "auto" && up_axis[0] - 'x' != axis)
         continue;
       auto found = find_trunk(scan, {axis, sign}, 0);
+      shows_neck |= found.has_value();
+      if (found && size.stature_m > 0)
+        found = find_trunk(scan, {axis, sign}, given_stature(*found, size));
       if (!found || (best && found->clear <= best->clear))
+        continue;
+      if (found->top - found->low < LEAST_HEIGHT * found->s)
         continue;
       best = std::move(found);
       upright = {axis, sign};
     }
-  if (!best)
-    return std::nullopt;
-  if (size.stature_m <= 0)
+  if (shows_neck && size.stature_m <= 0)
     throw input_error("scan.no-stature"_id, file, "",
                       "the neck is cut off: nothing shows how tall the person is",
                       "give --stature, the person's whom the dummy stands for");
-  best = find_trunk(scan, upright, given_stature(*best, size));
   if (!best)
     return std::nullopt;
   Trunk& t = *best;
