@@ -462,7 +462,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   for (const Finding& finding : body.scan.findings)
     if (finding.severity == "error" && !is_torso)
       result.doubts.push_back(finding);
-  if (!is_torso)
+  if (!is_torso || !torso.has_head)
     for (const Finding& doubt :
          doubts_of(body, options.corrections->strangeness(result.features))) {
       body.scan.findings.push_back(doubt);

@@ -37,6 +37,7 @@ constexpr double DOME_UNDER_HEAD = 0.85;    ///< a crown is round: its top layer
 constexpr double HEAD_HIGH = 2.4;           ///< times its half diagonal, at most
 constexpr double HEAD_OF_HEIGHT = 0.32;     ///< of the scan; two hands that hang are farther apart
 constexpr double SHOULDERS_COUNT = 2.0;     ///< shoulders broader than this count no more
+constexpr double STATURE_AGREES = 0.15;     ///< factors of e: a head shows it to 4 in 100
 constexpr double BOTH_ENDS = 0.4;           ///< clearness where both ends look like a head
 constexpr double LOW_END = 0.0005, HIGH_END = 0.9995; ///< shares of the points: few lie outside
 constexpr int DOME_LAYERS = 3;                        ///< the crown's
@@ -234,6 +235,15 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
       candidates.push_back({{axis, sign}, *found});
     }
   }
+  // what looks like a head and gives another stature than the user is none
+  if (size.stature_m > 0)
+    std::erase_if(candidates, [&](const Candidate& c) {
+      const double s = stand_up(scan, c.upright, c.neck).s;
+      return std::none_of(
+          std::begin(LENGTH_UNITS), std::end(LENGTH_UNITS), [&](const LengthUnit& unit) {
+            return std::abs(std::log(s * unit.metres / size.stature_m)) < STATURE_AGREES;
+          });
+    });
   if (candidates.empty())
     if (auto made = complete_headless(scan, up_axis, size, file))
       return std::move(*made);
