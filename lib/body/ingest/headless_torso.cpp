@@ -31,7 +31,7 @@ constexpr double TRUNK_SECTIONS[] = {0.03, 0.08, 0.14}; ///< below the turn
 constexpr double MOST_ASKEW = 0.03; ///< middle of a trunk's section beside the neck's
 /// From the end of the neck to that of the trunk; what is less high is a trunk seen along another
 /// axis, or does not reach down to the hips.
-constexpr double LEAST_HEIGHT = 0.3;
+constexpr double LEAST_HEIGHT = 0.36;
 constexpr double LEGS_REACH = 0.75;     ///< below the turn: the scan shows the legs too
 constexpr std::size_t LEAST_POINTS = 6; ///< of a section, and of the neck's end
 
