@@ -141,7 +141,7 @@ void name_body_class(const Finder& f) {
   // the others are as unsure
   constexpr double SURE = 0.87;
   // m3 over the square of the stature in m: of 362 bodies of one make the thinnest has 0.0170; a
-  // man of another make with 0.015 scores 0.94 female
+  // man of another make with 0.0163 scores 0.94 female
   constexpr double LEAST_BUILD = 0.0165;
   const double build = volume(f.levels.skin()) / (f.s * f.s);
   if (build < LEAST_BUILD) {
