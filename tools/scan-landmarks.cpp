@@ -242,7 +242,7 @@ int main(int argc, char** argv) {
       .check(cli::one_of({"auto", "x", "y", "z"}));
   tool.flag("--torso-only", o.torso_only,
             "take a scan without legs too: what it shows is found, stature and floor are estimated "
-            "from the head");
+            "from the head; without a head give --stature");
   tool.option("--jitter", o.jitter,
               "runs of the rules on a slightly turned, lifted and roughened skin, which measure "
               "each landmark's spread (default: 3, none beyond 80,000 faces)")

@@ -59,11 +59,11 @@ constexpr const char* ESSENTIAL[] = {
     "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
     "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
 
-/// What a torso without legs, or without arms, need not show.
+/// What a torso without head, legs or arms need not show.
 bool may_lack(const std::string& name) {
-  return name == "crotch" || name.starts_with("hip") || name.starts_with("ankle") ||
-         name.starts_with("hand_tip") || name.starts_with("shoulder") ||
-         name.starts_with("acromion");
+  return name == "head_tip" || name == "crotch" || name.starts_with("hip") ||
+         name.starts_with("ankle") || name.starts_with("hand_tip") ||
+         name.starts_with("shoulder") || name.starts_with("acromion");
 }
 
 constexpr int STANDARD_JITTER = 3;
@@ -331,7 +331,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
       options.torso_only &&
       !(shows_a_person(sorted) && sorted.up_score > 0.8); // hanging arms look a little like legs
   if (is_torso) {
-    torso = complete_torso(given, options.up, file);
+    torso = complete_torso(given, options.up,
+                           {options.stature_m, options.metres_per_unit, options.unit}, file);
     int up_axis = torso.up.y() != 0 ? 1 : 2;
     if (torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()))
       up_axis = 0;
@@ -366,8 +367,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     positions[v] = transform(frame.scan_to_body, scan.positions[v]);
   reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " +
                 std::to_string(frame.stature_m) + " m");
-  SkinSurface skin = make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m,
-                               is_torso ? "it has no legs" : "");
+  SkinSurface skin =
+      make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m, torso.lacks);
   body.skin = std::move(skin.mesh);
   phases.done("frame and skin");
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
@@ -434,8 +435,11 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   if (body.has_landmark("hip_center"))
     origin = Vec3(-body.landmark("hip_center").x(), 0, -body.landmark("hip_center").z());
   shift(body, origin);
-  if (is_torso)
-    forget_unseen(body, transform(frame.scan_to_body, torso.seen_from * torso.up).y());
+  if (is_torso) {
+    const auto height = [&](double y) { return transform(frame.scan_to_body, y * torso.up).y(); };
+    forget_unseen(body, {height(torso.seen_from), torso.has_head ? 1e300 : height(torso.seen_to),
+                         torso.has_head});
+  }
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
   if (upright) {
     body.scan_to_body.block<3, 3>(0, 0) *= *upright;
@@ -458,7 +462,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   for (const Finding& finding : body.scan.findings)
     if (finding.severity == "error" && !is_torso)
       result.doubts.push_back(finding);
-  if (!is_torso)
+  if (!is_torso || !torso.has_head)
     for (const Finding& doubt :
          doubts_of(body, options.corrections->strangeness(result.features))) {
       body.scan.findings.push_back(doubt);

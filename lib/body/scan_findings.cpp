@@ -33,7 +33,18 @@ void add_findings(Body& body, const SegmentedScan& sorted, const SkinSurface& sk
 }
 
 void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
-  constexpr double WIDE = 0.03; // m: there the skin is made up
+  constexpr double WIDE = 0.03;                           // m: there the skin is made up
+  constexpr double SOLE_HEIGHT = 0.03, SOLE_WIDTH = 0.08; // of stature, at most and at least
+  const double s = body.scan.stature_m;
+  const bool is_open_below = std::any_of(holes.begin(), holes.end(), [&](const Hole& hole) {
+    return hole.center.y() < SOLE_HEIGHT * s && hole.width > SOLE_WIDTH * s;
+  });
+  if (is_open_below)
+    body.scan.findings.push_back(
+        {"scan.soles-open"_id, "warning",
+         "the feet have no soles: if they are cut off above the floor, the stature and all heights "
+         "are too small by what is missing",
+         "scan"});
   for (const Hole& hole : holes) {
     const Vec3 p = hole.center + origin;
     std::string near;

@@ -21,6 +21,10 @@ public:
       m_text.remove_suffix(1);
     if (m_text.substr(0, 3) == "\xEF\xBB\xBF")
       m_text.remove_prefix(3); // byte order mark, as some editors write it
+    m_zero = m_text.find('\0');
+    constexpr std::size_t VERTEX_BYTES = 60, FACE_BYTES = 40; // of a text, for half of each or more
+    m_mesh.positions.reserve(m_text.size() / VERTEX_BYTES / 2);
+    m_mesh.triangles.reserve(m_text.size() / FACE_BYTES);
     while (m_at < m_text.size()) {
       auto end = m_text.find('\n', m_at);
       if (end == std::string_view::npos)
@@ -39,7 +43,7 @@ public:
 
 private:
   void parse_line() {
-    if (m_line.find('\0') != std::string_view::npos)
+    if (m_zero < m_at) // its line is the first that ends behind it
       fail("obj.malformed"_id, "is not text", "expected an OBJ file");
     const std::string_view key = word();
     if (key == "v") {
@@ -80,7 +84,8 @@ private:
       } else {
         if (count > 1) {
           m_mesh.triangles.push_back({v0, v1, v});
-          m_mesh.texture_triangles.push_back({t0, t1, t});
+          if (m_keep_texture)
+            m_mesh.texture_triangles.push_back({t0, t1, t});
         }
         v1 = v;
         t1 = t;
@@ -119,14 +124,13 @@ private:
   }
 
   std::string_view word() {
-    const auto begin = m_line.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) {
-      m_line = {};
-      return {};
-    }
-    auto end = m_line.find_first_of(" \t", begin);
-    if (end == std::string_view::npos)
-      end = m_line.size();
+    const auto is_space = [](char c) { return c == ' ' || c == '\t'; };
+    std::size_t begin = 0;
+    while (begin < m_line.size() && is_space(m_line[begin]))
+      ++begin;
+    std::size_t end = begin;
+    while (end < m_line.size() && !is_space(m_line[end]))
+      ++end;
     const std::string_view w = m_line.substr(begin, end - begin);
     m_line.remove_prefix(end);
     return w;
@@ -144,6 +148,7 @@ private:
   std::string_view m_text, m_line;
   std::string m_name;
   std::size_t m_at = 0, m_number = 0;
+  std::size_t m_zero = std::string_view::npos; ///< of the first byte that is no text
   bool m_keep_texture = true, m_has_texture = false;
   ObjMesh m_mesh;
 };

@@ -161,7 +161,7 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
                           : "no standing person: no head above the shoulders",
                       "a scan must show a whole standing body with its legs apart; check --up, cut "
                       "away what is not the body, or, for a torso without "
-                      "legs, give --torso-only");
+                      "head or legs, give --torso-only");
   if (sorted.second_share > 0.5)
     throw input_error("scan.two-people"_id, file, "", "two bodies stand in this scan",
                       "cut the scan so that one person is left");

@@ -1,7 +1,7 @@
+#include <body/ingest/plain_limbs.hpp>
 #include <body/ingest/torso_only.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/statistics.hpp>
-#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,11 +24,10 @@ struct Band {
 constexpr double NECK_BELOW_CROWN = 0.122; ///< narrowest place of the neck
 constexpr double HEAD_BREADTH = 0.1015;    ///< at its broadest; varies less than the neck's height
 constexpr double BREADTH_WEIGHT = 0.75;
-constexpr double CROTCH = 0.463;    ///< Drillis and Contini 1966 give 0.47 to 0.48
 constexpr double LEAST_TRUNK = 0.7; ///< a torso reaches down to here at least: the chest
 constexpr double COLUMN = 0.13;     ///< of the trunk without arms, around the neck
 constexpr double RIM = 0.012;       ///< left out where the torso ends: a lid, or torn edges
-constexpr int N_LAYERS = 120, N_OUTLINE_ANGLES = 48;
+constexpr int N_LAYERS = 120;
 
 // A head on a neck above shoulders, by half diagonals of layers. Measured on the shared torso scans
 // and cut mannequins of the tests, on no population.
@@ -38,6 +37,7 @@ constexpr double DOME_UNDER_HEAD = 0.85;    ///< a crown is round: its top layer
 constexpr double HEAD_HIGH = 2.4;           ///< times its half diagonal, at most
 constexpr double HEAD_OF_HEIGHT = 0.32;     ///< of the scan; two hands that hang are farther apart
 constexpr double SHOULDERS_COUNT = 2.0;     ///< shoulders broader than this count no more
+constexpr double STATURE_AGREES = 0.15;     ///< factors of e: a head shows it to 4 in 100
 constexpr double BOTH_ENDS = 0.4;           ///< clearness where both ends look like a head
 constexpr double LOW_END = 0.0005, HIGH_END = 0.9995; ///< shares of the points: few lie outside
 constexpr int DOME_LAYERS = 3;                        ///< the crown's
@@ -53,17 +53,6 @@ constexpr std::size_t LEAST_CHEST = 40; ///< points; fewer: the shoulders tell
 constexpr Band HEAD_BAND{0.89, 0.97};
 constexpr double HEAD_STEP = 0.008, HEAD_HALF_STEP = 0.006;
 
-// Plain legs that complete a torso: they carry no measurement, cloth hangs beside them.
-constexpr double ROWS = 230; ///< of points over a stature
-constexpr double ANKLE_HEIGHT = 0.045, ANKLE_ASIDE = 0.06, ANKLE_BEHIND = 0.005,
-                 ANKLE_RADIUS = 0.020;
-constexpr double KNEE_HEIGHT = 0.285, KNEE_RADIUS = 0.033;
-constexpr double THIGH_ASIDE = 0.053, THIGH_RADIUS = 0.049;
-constexpr double FOOT_BACK = -0.035, FOOT_FRONT = 0.112, FOOT_HALF_BREADTH = 0.021;
-constexpr double INSTEP_FROM = 0.03, INSTEP_LENGTH = 0.082, INSTEP_FALL = 0.75;
-constexpr double FOOT_CLOSED_BEHIND = -0.03, FOOT_CLOSED_BEFORE = 0.107;
-constexpr double FOOT_STEP = 0.04, FOOT_END = 1.0001; ///< of its breadth and height
-constexpr double LEGS_APART = 0.004; ///< a rim with nothing so near the middle is two thighs
 constexpr std::size_t LEAST_TRUNK_RIM = 12;
 constexpr double TRUNK_COLUMN = 1.3 * COLUMN; ///< of the trunk where it is cut, around the neck
 
@@ -71,22 +60,6 @@ constexpr double TRUNK_COLUMN = 1.3 * COLUMN; ///< of the trunk where it is cut,
 constexpr double HAND_AT_RIM = 0.03; ///< a stump that ends so near to it is no hand
 constexpr double ABOVE_RIM = 0.02;   ///< an extremum nearer to it is the rim itself
 constexpr double WITH_CROTCH = 0.8, WITHOUT_CROTCH = 0.5; ///< factors of the confidence of ratios
-constexpr std::size_t LEAST_RIM = 8;                      ///< points of one thigh
-
-/// The scan upright: height along `up`, two coordinates across.
-struct Upright {
-  int axis = 1;
-  double sign = 1;
-  double height(const Vec3& p) const { return sign * p[axis]; }
-  Vec2 across(const Vec3& p) const { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
-  Vec3 point(const Vec2& a, double height) const {
-    Vec3 p;
-    p[axis] = sign * height;
-    p[(axis + 1) % 3] = a.x();
-    p[(axis + 2) % 3] = a.y();
-    return p;
-  }
-};
 
 struct Neck {
   double crown = 0, height = 0; ///< the file's unit
@@ -239,122 +212,10 @@ Stand stand_up(const TriangleMesh& scan, const Upright& upright, const Neck& nec
   return stand;
 }
 
-/// Points of plain legs in a frame of left, up, forward, m-like units of stature s; `outline` is
-/// the trunk's, as radius over angle.
-class Legs {
-public:
-  Legs(double s) : m_s(s), m_step(s / ROWS) {}
-  std::vector<Vec3> points;
-
-  void tube(const Vec3& top, const Vec3& bottom, const std::array<double, N_OUTLINE_ANGLES>& above,
-            double below) {
-    const int rows = std::max(1, static_cast<int>((top.y() - bottom.y()) / m_step));
-    for (int k = 0; k <= rows; ++k) {
-      const double t = static_cast<double>(k) / rows;
-      const Vec3 c = top + t * (bottom - top);
-      for (int a = 0; a < 2 * N_OUTLINE_ANGLES; ++a) {
-        const double r0 =
-            a % 2 ? 0.5 * (above[a / 2] + above[(a / 2 + 1) % N_OUTLINE_ANGLES]) : above[a / 2];
-        const double r = below < 0 ? r0 : r0 + t * (below - r0),
-                     theta = units::PI * a / N_OUTLINE_ANGLES;
-        points.emplace_back(c.x() + r * std::cos(theta), c.y(), c.z() + r * std::sin(theta));
-      }
-    }
-  }
-  void foot(const Vec3& ankle) {
-    const double high = ankle.y();
-    const double half = FOOT_HALF_BREADTH * m_s, instep = INSTEP_FROM * m_s;
-    for (double z = FOOT_BACK * m_s; z <= FOOT_FRONT * m_s; z += m_step)
-      for (double t = 0; t <= FOOT_END; t += FOOT_STEP) {
-        const double fall = INSTEP_FALL * (z - instep) / (INSTEP_LENGTH * m_s);
-        const double top = z < instep ? high : high * (1 - fall);
-        const double x = half * (2 * t - 1);
-        points.emplace_back(ankle.x() + x, top, ankle.z() + z);
-        points.emplace_back(ankle.x() + x, 0, ankle.z() + z);
-        for (const double side : {-half, half})
-          points.emplace_back(ankle.x() + side, t * top, ankle.z() + z);
-        if (z < FOOT_CLOSED_BEHIND * m_s || z > FOOT_CLOSED_BEFORE * m_s)
-          points.emplace_back(ankle.x() + x, 0.5 * top, ankle.z() + z);
-      }
-  }
-  static std::array<double, N_OUTLINE_ANGLES> circle(double r) {
-    std::array<double, N_OUTLINE_ANGLES> all;
-    all.fill(r);
-    return all;
-  }
-
-private:
-  double m_s, m_step;
-};
-
-/// Radius over angle of points around a centre, gaps filled by their neighbours.
-std::array<double, N_OUTLINE_ANGLES> outline_of(const std::vector<Vec2>& points,
-                                                const Vec2& center) {
-  std::array<double, N_OUTLINE_ANGLES> radius;
-  radius.fill(-1);
-  for (const Vec2& p : points) {
-    const Vec2 d = p - center;
-    const int k = static_cast<int>(
-                      std::lround(std::atan2(d.y(), d.x()) / (2 * units::PI) * N_OUTLINE_ANGLES) +
-                      N_OUTLINE_ANGLES) %
-                  N_OUTLINE_ANGLES;
-    radius[k] = std::max(radius[k], d.norm());
-  }
-  for (int k = 0; k < N_OUTLINE_ANGLES; ++k)
-    for (int j = 1; j < N_OUTLINE_ANGLES && radius[k] < 0; ++j)
-      radius[k] = std::max(radius[(k + j) % N_OUTLINE_ANGLES],
-                           radius[(k + N_OUTLINE_ANGLES - j) % N_OUTLINE_ANGLES]);
-  return radius;
-}
-
-Vec2 box_middle(const std::vector<Vec2>& points) {
-  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-  for (const Vec2& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return 0.5 * (low + high);
-}
-
-/// Plain legs below a trunk whose rim has these points (left, forward) at height `cut`.
-std::vector<Vec3> plain_legs(const std::vector<Vec2>& rim, double cut, double s) {
-  Legs legs(s);
-  std::vector<Vec2> side[2];
-  bool apart = cut < 0.5 * s;
-  const Vec2 middle = box_middle(rim);
-  for (const Vec2& p : rim) {
-    side[p.x() > middle.x() ? 0 : 1].push_back(p);
-    apart &= std::abs(p.x() - middle.x()) > LEGS_APART * s;
-  }
-  if (!apart && cut > CROTCH * s)
-    legs.tube({middle.x(), cut, middle.y()}, {middle.x(), CROTCH * s, middle.y()},
-              outline_of(rim, middle), -1);
-  for (int k = 0; k < 2; ++k) {
-    const double sign = k == 0 ? 1 : -1, ankle_y = ANKLE_HEIGHT * s;
-    Vec3 top(middle.x() + sign * THIGH_ASIDE * s, std::min(cut, CROTCH * s), middle.y());
-    std::array<double, N_OUTLINE_ANGLES> above = Legs::circle(THIGH_RADIUS * s);
-    if (apart && side[k].size() > LEAST_RIM) {
-      const Vec2 c = box_middle(side[k]);
-      top = Vec3(c.x(), cut, c.y());
-      above = outline_of(side[k], c);
-    }
-    const Vec3 ankle(middle.x() + sign * ANKLE_ASIDE * s, ankle_y, middle.y() - ANKLE_BEHIND * s);
-    const double knee_y = KNEE_HEIGHT * s, knee_radius = KNEE_RADIUS * s;
-    const double to_knee = knee_y < top.y() ? (top.y() - knee_y) / (top.y() - ankle_y) : 0.0;
-    const Vec3 knee = top + to_knee * (ankle - top);
-    const bool thigh = knee.y() < top.y();
-    if (thigh)
-      legs.tube(top, knee, above, knee_radius);
-    legs.tube(knee, ankle, thigh ? Legs::circle(knee_radius) : above, ANKLE_RADIUS * s);
-    legs.foot(ankle);
-  }
-  return legs.points;
-}
-
 } // namespace
 
 CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_axis,
-                              const std::string& file) {
+                              const SizeOptions& size, const std::string& file) {
   struct Candidate {
     Upright upright;
     Neck neck;
@@ -374,10 +235,22 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
       candidates.push_back({{axis, sign}, *found});
     }
   }
+  // what looks like a head and gives another stature than the user is none
+  if (size.stature_m > 0)
+    std::erase_if(candidates, [&](const Candidate& c) {
+      const double s = stand_up(scan, c.upright, c.neck).s;
+      return std::none_of(
+          std::begin(LENGTH_UNITS), std::end(LENGTH_UNITS), [&](const LengthUnit& unit) {
+            return std::abs(std::log(s * unit.metres / size.stature_m)) < STATURE_AGREES;
+          });
+    });
+  if (candidates.empty())
+    if (auto made = complete_headless(scan, up_axis, size, file))
+      return std::move(*made);
   if (candidates.empty())
     throw input_error("scan.no-torso"_id, file, "",
-                      "no torso: no head on a neck above shoulders in any axis direction",
-                      "a torso scan must show the head; check --up");
+                      "no torso: no neck above shoulders in any axis direction",
+                      "a torso scan must show the neck; check --up");
   std::stable_sort(
       candidates.begin(), candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.neck.clear > b.neck.clear; });
@@ -403,6 +276,7 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
           neck.center + q.x() * stand.heading.left + q.z() * stand.heading.forward, floor + q.y()));
     made.up = upright.point(Vec2::Zero(), 1);
     made.seen_from = floor + stand.cut + RIM * s;
+    made.lacks = "it has no legs";
     made.stature = s;
     return made;
   }
@@ -410,8 +284,25 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
                     "a torso scan must reach down to the waist");
 }
 
-void forget_unseen(Body& body, double seen_from) {
-  const double s = body.scan.stature_m, sure = seen_from + 0.015 * s;
+/// What a plain head shows is no measurement.
+template<class Forget> static void forget_head(Body& body, double seen_to, const Forget& forget) {
+  constexpr double NECK_GIRTH_UP = 0.0235; // of stature: the neck's girth runs above its centre
+  forget("head_tip");
+  std::vector<std::string> high;
+  for (const auto& [name, landmark] : body.landmarks)
+    if (name.starts_with("neck") && landmark.p.y() > seen_to)
+      high.push_back(name);
+  for (const std::string& name : high)
+    forget(name);
+  const bool shows_neck =
+      body.has_landmark("neck_center") &&
+      body.landmark("neck_center").y() + NECK_GIRTH_UP * body.scan.stature_m < seen_to;
+  if (!shows_neck)
+    body.girths.erase("neck");
+}
+
+void forget_unseen(Body& body, const SeenHeights& seen) {
+  const double s = body.scan.stature_m, sure = seen.from + 0.015 * s;
   std::vector<std::string> lost;
   auto forget = [&](const std::string& name) {
     if (body.landmarks.erase(name))
@@ -427,7 +318,7 @@ void forget_unseen(Body& body, double seen_from) {
   for (int side = 0; side < 2; ++side)
     if (const auto tip = body.landmarks.find(side == 0 ? "hand_tip_l" : "hand_tip_r");
         tip != body.landmarks.end())
-      hand_is_cut[side] = std::abs(tip->second.p.y() - seen_from) < HAND_AT_RIM * s;
+      hand_is_cut[side] = std::abs(tip->second.p.y() - seen.from) < HAND_AT_RIM * s;
   for (const std::string& name : names) {
     const bool of_arm = name.starts_with("hand") || name.starts_with("wrist") ||
                         name.starts_with("elbow") || name.starts_with("olecranon");
@@ -450,8 +341,11 @@ void forget_unseen(Body& body, double seen_from) {
     else if (landmark.rule.find("ratio") != std::string::npos || landmark.rule == "proportion")
       landmark.confidence *= has_crotch ? WITH_CROTCH : WITHOUT_CROTCH;
   }
+  if (!seen.has_head)
+    forget_head(body, seen.to, forget);
   std::erase_if(body.levels, [&](const auto& level) {
-    return level.second.y < sure || (level.first == "crotch" && !has_crotch) ||
+    return level.second.y < sure || level.second.y > seen.to ||
+           (level.first == "crotch" && !has_crotch) ||
            (level.first == "hip" && !body.has_landmark("buttock_back")) ||
            (level.first == "hip_girth_max" && level.second.y < sure + ABOVE_RIM * s);
   });
@@ -470,8 +364,10 @@ void forget_unseen(Body& body, double seen_from) {
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
     Triangle t = body.skin.triangles[f];
     const bool of_arm = body.face_part[f] == Part::ARM_L || body.face_part[f] == Part::ARM_R;
-    if (!of_arm && std::min({body.skin.positions[t[0]].y(), body.skin.positions[t[1]].y(),
-                             body.skin.positions[t[2]].y()}) < seen_from)
+    const auto [low, high] =
+        std::minmax({body.skin.positions[t[0]].y(), body.skin.positions[t[1]].y(),
+                     body.skin.positions[t[2]].y()});
+    if (!of_arm && (low < seen.from || high > seen.to))
       continue;
     for (int& v : t) {
       if (number[v] < 0) {
@@ -486,9 +382,9 @@ void forget_unseen(Body& body, double seen_from) {
   body.skin = std::move(kept);
   body.face_part = std::move(part);
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "torso only: stature %.2f m and floor are estimated from the head, to about 4 in 100", s);
+  const char* how = seen.has_head ? "estimated from the head, to about 4 in 100"
+                                  : "put below the shoulders by what is given, to about 1 in 100";
+  std::snprintf(text, sizeof text, "torso only: stature %.2f m and floor are %s", s, how);
   body.scan.findings.push_back({"scan.torso-only"_id, "warning", text, "scan"});
   std::string all;
   for (const std::string& name : lost)

@@ -30,7 +30,7 @@ void merge_numbers(Numbers& numbers, const io::Node& table, bool may_add) {
       unknown(entry, "no rule has a number", key, names);
     }
     if (entry.is_object()) {
-      entry.allow_only({"value", "why"});
+      entry.allow_only({"value", "why", "sensitivity"});
       numbers[key] = entry.at("value").number();
     } else
       numbers[key] = entry.number();

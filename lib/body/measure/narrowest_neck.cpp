@@ -11,7 +11,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double LOW = 0.025, HIGH = 0.05,
+constexpr double NECK_LOW = 0.025, NECK_HIGH = 0.05,
                  STEP = 0.005;   ///< of stature along the axis above the base
 constexpr double REACH = 0.12;   ///< of stature from the base: skin farther off is no neck
 constexpr double LEANS_DEG = 35; ///< of the neck's axis forward; on 23 bodies 21 to 49
@@ -90,7 +90,7 @@ std::optional<NeckSection> narrowest_neck(const TriangleMesh& skin, const Vec3& 
   Neck neck(skin, base, REACH * stature);
   Tilt tilt{std::atan2(normal.z(), normal.y()), std::asin(normal.x())};
   std::optional<NeckSection> narrowest;
-  for (double along = LOW; along < HIGH + 0.5 * STEP; along += STEP) {
+  for (double along = NECK_LOW; along < NECK_HIGH + 0.5 * STEP; along += STEP) {
     const Vec3 p = base + along * stature * axis;
     const auto girth = neck.turn_to_least(p, tilt);
     if (girth && (!narrowest || *girth < narrowest->girth_m))
