@@ -439,6 +439,11 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     const auto height = [&](double y) { return transform(frame.scan_to_body, y * torso.up).y(); };
     forget_unseen(body, {height(torso.seen_from), torso.has_head ? 1e300 : height(torso.seen_to),
                          torso.has_head});
+    if (!torso.has_head)
+      body.scan.findings.push_back(
+          {"scan.no-head"_id, "warning",
+           "without a head the neck and the bust are less sure: compare both girths with a tape",
+           "scan"});
   }
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
   if (upright) {

@@ -147,7 +147,7 @@ void name_body_class(const Finder& f) {
   if (build < LEAST_BUILD) {
     const std::string text =
         line("the figure is unsure: the body is thinner (%.1f litres to the square of its stature) "
-             "than those on which the classes were told apart",
+             "than those on which the two classes were learned",
              1000 * build);
     body.body_class_why.push_back(text);
     body.scan.findings.push_back({"scan.figure-unsure"_id, "info", text, "figure"});

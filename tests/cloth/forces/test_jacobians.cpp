@@ -258,14 +258,14 @@ TEST(Jacobian, of_dihedral_bending_that_is_scaled_about_a_rest_angle) {
   EXPECT_GT(largest, 1e-9);
   EXPECT_NEAR(thrice.energy(x), 3 * once.energy(x), 1e-12 * thrice.energy(x));
   constexpr double STEP = 1e-6; // m
-  const Field way = random_field(x.size(), 6);
+  const Field direction = random_field(x.size(), 6);
   Field more = x, less = x;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    more[i] += STEP * way[i];
-    less[i] -= STEP * way[i];
+    more[i] += STEP * direction[i];
+    less[i] -= STEP * direction[i];
   }
   const double slope = (thrice.energy(more) - thrice.energy(less)) / (2 * STEP);
-  EXPECT_NEAR(slope, -dot(scaled, way), 1e-5 * std::abs(slope));
+  EXPECT_NEAR(slope, -dot(scaled, direction), 1e-5 * std::abs(slope));
 }
 
 TEST(Jacobian, of_damping_takes_the_power_with_which_stretched_springs_change_length) {
