@@ -150,7 +150,9 @@ bool forget_folds(pattern::PanelMesh& mesh) {
 std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
                                const DrapeSettings& settings, CarriedCrossings crossings,
                                Reporter& reporter, DrapeReport& report) {
-  const pattern::PanelMesh given = garment.panels;
+  pattern::PanelMesh given = garment.panels;
+  if (crossings == CarriedCrossings::SPRUNG) // stiff folds have sunk into each other
+    forget_folds(given);
   Garment cloth = garment;
   CollisionBody met(&body, SOFT_SKIN_TOLERANCE, reporter);
   const auto began = Clock::now();
@@ -192,6 +194,8 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
   if (const std::string stands = standing_text(roll_line_states(fine)); !stands.empty())
     return stands;
   fine.scene = garment.scene;
+  for (std::size_t k = 0; k < fine.panels.panels.size(); ++k)
+    fine.panels.panels[k].in_folds = garment.panels.panels[k].in_folds;
   garment = std::move(fine);
   return "";
 }

@@ -127,19 +127,20 @@ std::vector<char> placed_in_folds(const Garment& garment) {
 
 /// Cloth in the middle of its way, by steps without a line search.
 ///
-/// What makes it stiffer for a while keeps it flat, but for cloth that was placed in folds: that
-/// keeps the shape in which it comes.
+/// What makes it stiffer for a while keeps it flat, but for cloth that was placed in folds: unless
+/// it is to spring flat, that keeps the shape in which it comes.
 class SoftCloth {
 public:
   SoftCloth(Garment& garment, CollisionBody& body, double reach, double stiffness, double drag,
-            double tolerance, const StiffRegion& flat = {})
+            double tolerance, bool springs_flat = false)
       : m_garment(garment), m_start(garment.position), m_mesh(cloth_mesh_of(garment)),
         m_hinges(m_mesh.hinges), m_velocity(garment.position.size(), Vec3::Zero()),
         m_solver(m_mesh, garment.position, m_velocity) {
     m_solver.emplace<cloth::EdgeSpringEffect>(m_mesh);
     m_solver.emplace<cloth::ShearEffect>(m_mesh);
-    keep_folds(flat);
-    add_bending(flat.particles.empty() && !m_folds);
+    if (!springs_flat)
+      keep_folds();
+    add_bending(!springs_flat && !m_folds);
     const cloth::SoftBodyContactOptions contact{.reach_m = reach,
                                                 .stiffness_n_m3 = stiffness,
                                                 .drag = drag,
@@ -156,19 +157,18 @@ public:
   const cloth::ClothMesh& mesh() const { return m_mesh; }
   cloth::SoftBodyContactEffect* contact() { return m_contact; } ///< null without a body
   bool in_folds() const { return m_folds != nullptr; }
-  /// Without bending by direction: stiffer in a region, where nothing keeps folds.
+  /// Where it springs flat: stiffer in a region.
   void set_bending(double times, const StiffRegion& stiff) {
-    for (std::size_t e = 0; e < m_hinges.size(); ++e)
-      m_mesh.hinges[e].stiffness =
-          (is_in(stiff, m_hinges[e]) ? stiff.bending : flat_bending(e, times)) *
-          m_hinges[e].stiffness;
-    if (m_folds)
-      m_folds->set_scale(times - 1);
+    for (std::size_t e = 0; e < m_hinges.size(); ++e) {
+      const auto& on = m_hinges[e].particle;
+      const bool in = std::any_of(on.begin(), on.end(), [&](int i) { return stiff.particles[i]; });
+      m_mesh.hinges[e].stiffness = (in ? stiff.bending : times) * m_hinges[e].stiffness;
+    }
   }
   void set_bending(double times) {
     m_mesh.bend_scale = times;
     for (std::size_t e = 0; e < m_hinges.size(); ++e)
-      m_mesh.hinges[e].stiffness = flat_bending(e, times) * m_hinges[e].stiffness;
+      m_mesh.hinges[e].stiffness = (m_folds && m_in_folds[e] ? 1 : times) * m_hinges[e].stiffness;
     if (m_folds)
       m_folds->set_scale(times - 1);
   }
@@ -183,24 +183,14 @@ public:
   const cloth::StepResult& last() const { return m_last; }
 
 private:
-  static bool is_in(const StiffRegion& region, const cloth::Hinge& hinge) {
-    return !region.particles.empty() &&
-           std::any_of(hinge.particle.begin(), hinge.particle.end(),
-                       [&](int i) { return region.particles[i] != 0; });
-  }
-  /// Of a hinge about flat cloth, where all of the cloth bends `times` as stiffly.
-  double flat_bending(std::size_t hinge, double times) const {
-    return m_folds && m_in_folds[hinge] ? 1 : times;
-  }
-  /// @param flat  where folds are not kept
-  void keep_folds(const StiffRegion& flat) {
+  /// Adds what keeps folds, where there are any.
+  void keep_folds() {
     const std::vector<char> folded = placed_in_folds(m_garment);
     m_folded_mesh = m_mesh;
     std::vector<double> angle;
     for (cloth::Hinge& hinge : m_folded_mesh.hinges) {
       const bool kept = std::all_of(hinge.particle.begin(), hinge.particle.end(),
-                                    [&](int i) { return folded[i] != 0; }) &&
-                        !is_in(flat, hinge);
+                                    [&](int i) { return folded[i] != 0; });
       m_in_folds.push_back(kept);
       angle.push_back(cloth::hinge_angle(hinge, m_start));
       if (!kept)
@@ -306,7 +296,7 @@ SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxi
 
 SoftRelaxed spring_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
                           const StiffRegion& stiff, double gravity_m_s2) {
-  SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance, stiff);
+  SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance, true);
   cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
   cloth.set_bending(how.bending, stiff);
   for (int k = 0; k < how.steps; ++k)
