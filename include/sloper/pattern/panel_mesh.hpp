@@ -32,8 +32,8 @@ struct PanelInfo {
   std::string material;    ///< name of a material preset, or empty for the scene's
   int layer = 0;           ///< 0 next to the skin
   std::string part;        ///< body part it was placed on: "torso", "arm_l", ..., or empty
-  bool in_folds = false;   ///< a wide skirt's panel, placed in folds: its cloth is wider than its
-                           ///< way around the body
+  bool in_folds = false;   ///< a wide skirt's panel, placed in folds: its cloth is wider than the
+                           ///< surface that it is on
   /// Global vertex indices of the boundary loop, counter-clockwise, closed implicitly.
   std::vector<int> outline;
 };

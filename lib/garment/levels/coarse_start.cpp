@@ -161,9 +161,8 @@ std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
     cloth.scene.creases.clear(); // roll lines of the pattern are pressed, others come later
     prepare(met, garment);
     std::string why = sew(cloth, met, settings, reporter, report);
-    if (!why.empty() && forget_folds(cloth.panels)) { // stiff folds may keep a seam from closing
+    if (!why.empty() && forget_folds(cloth.panels)) // stiff folds may keep a seam from closing
       why = sew(cloth, met, settings, reporter, report);
-    }
     if (!why.empty())
       return why;
   } catch (const Error& e) { // a pattern too narrow for coarse triangles, a body without bones
